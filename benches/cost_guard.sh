@@ -13,7 +13,7 @@ readonly values=benches/cost_guard.json
 readonly supel=target/debug/supel
 
 # As the tests are built, so that after them there is nothing to do; these two need both programs.
-cargo test --quiet --workspace --locked --features supel-models/med --no-run --test readme --test parts
+cargo test --quiet --workspace --locked --features supel-models/med,supel-runtime/capi,validation/vtkhdf --no-run --test readme --test parts
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

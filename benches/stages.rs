@@ -18,10 +18,10 @@ use supel::job::Job;
 use supel::model::Model;
 use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
+use supel::plan::Relief;
 use supel::random::SEED;
 use supel::reduction::Reduction;
-use supel::rigid::shift_of_factor;
-use supel::rigid::{RigidBodyModes, rigid_body_modes};
+use supel::rigid::{RigidBodyModes, interface_rank, rigid_body_modes, shift_of_factor};
 use supel_models::{Family, Part};
 
 /// Right-hand sides of one solve: a block of the Lanczos iteration.
@@ -45,7 +45,7 @@ impl Prepared {
         let model = Model::new(supel::input::read(&job.model).expect("files")).expect("a sound model");
         let partition = Partition::new(model, &job.interfaces).expect("two faces");
         let (rigid, _) = rigid_body_modes(&partition).expect("six of them");
-        let sigma = shift_of_factor(&partition, &rigid);
+        let sigma = shift_of_factor(&partition, &rigid, interface_rank(&partition, &rigid).ok());
         Self { job, partition, rigid, sigma }
     }
 
@@ -58,9 +58,9 @@ impl Prepared {
         &'a self,
         analysis: &'a Analysis,
         factor: &'a Cholesky<'a>,
-        constraint: &'a ConstraintModes,
+        constraint: &'a ConstraintModes<'a>,
     ) -> Component<'a> {
-        Component::new(&self.partition, analysis, factor, &self.rigid, constraint)
+        Component::new(&self.partition, analysis, factor, &self.rigid, Some(constraint))
     }
 
     fn lowest_modes(&self, component: Component<'_>) -> Retained {
@@ -112,7 +112,7 @@ fn measure(criterion: &mut Criterion, family: Family, folder: &Path) {
     let component = prepared.component(&analysis, &factor, &constraint);
     group.bench_function(id("Lanczos"), |b| b.iter(|| prepared.lowest_modes(component)));
     let retained = prepared.lowest_modes(component);
-    let columns = retained_columns(component, &job.reduction, &retained);
+    let columns = retained_columns(component, &constraint, Relief::of_reduction(&job.reduction), &retained);
     let basis = Basis::new(&constraint, &columns, partition.internal().mass);
     group.bench_function(id("project"), |b| b.iter(|| Reduction::new(partition, &basis, rigid)));
 

@@ -121,26 +121,47 @@ pub(crate) fn unit_diagonal(a: MatRef<'_, f64>) -> (Mat<f64>, Vec<f64>) {
     (Mat::from_fn(a.nrows(), a.nrows(), |i, j| a[(i, j)] * scale[i] * scale[j]), scale)
 }
 
-/// The space of some columns in a basis that is orthonormal in M; what M does not see is left out.
+/// The space of some columns in a basis that is orthonormal in M; what M does not see is left out, and what is rounding of the columns.
 ///
-/// # Errors
-/// As [`symmetric_eigen`].
-pub(crate) fn orthonormal(columns: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Result<Mat<f64>> {
-    /// Share of a direction that has to be left of it beyond the others for it to count.
-    const INDEPENDENT: f64 = 1e-12;
-    let lengths: Vec<f64> = dots(columns, product(m, columns).as_ref());
-    let seen: Vec<usize> = (0..columns.ncols()).filter(|j| lengths[*j] > 0.0).collect();
-    let mut basis = Mat::from_fn(columns.nrows(), seen.len(), |i, j| columns[(i, seen[j])] / lengths[seen[j]].sqrt());
-    // Twice, as what rounding leaves after the first time is small.
-    for _ in 0..2 {
-        let mut gram = gram(basis.as_ref(), product(m, basis.as_ref()).as_ref());
-        symmetrise(&mut gram);
-        let (values, vectors) = symmetric_eigen(gram.as_ref())?;
-        let kept: Vec<usize> = (0..values.len()).filter(|j| values[*j] > INDEPENDENT).collect();
-        let turn = Mat::from_fn(values.len(), kept.len(), |i, j| vectors[(i, kept[j])] / values[kept[j]].sqrt());
-        basis = product(basis.as_ref(), turn.as_ref());
+/// By Gram and Schmidt with pivots, and not from the Gram matrix, which holds the squares of what columns keep beyond the others: next to a
+/// heavy mass that is 10⁻⁷ of rotations about it.
+pub(crate) fn orthonormal(columns: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Mat<f64> {
+    let rounding = NOISE_FACTOR * columns.nrows() as f64 * f64::EPSILON;
+    let sizes = absolute(m);
+    let terms = |x: MatRef<'_, f64>| {
+        let x = absolute(x);
+        dots(x.as_ref(), product(sizes.as_ref(), x.as_ref()).as_ref())
+    };
+    let whole: Vec<f64> = terms(columns).into_iter().map(f64::sqrt).collect();
+    let (mut left, mut momenta) = (columns.to_owned(), product(m, columns));
+    let mut basis = Mat::zeros(columns.nrows(), 0);
+    let mut open: Vec<usize> = (0..columns.ncols()).collect();
+    let share = |left: &Mat<f64>, momenta: &Mat<f64>, j: usize| {
+        let square = dot(column(left.as_ref(), j), column(momenta.as_ref(), j)).max(0.0);
+        if whole[j] > 0.0 { square.sqrt() / whole[j] } else { 0.0 }
+    };
+    while let Some(place) =
+        (0..open.len()).max_by(|a, b| share(&left, &momenta, open[*a]).total_cmp(&share(&left, &momenta, open[*b])))
+    {
+        let j = open.swap_remove(place);
+        let mut next = left.as_ref().subcols(j, 1).to_owned();
+        // Once more for orthogonality to rounding.
+        let along = gram(product(m, basis.as_ref()).as_ref(), next.as_ref());
+        add_product(next.as_mut(), -1.0, basis.as_ref(), along.as_ref());
+        let momentum = product(m, next.as_ref());
+        let square = dots(next.as_ref(), momentum.as_ref())[0].max(0.0);
+        if square.sqrt() <= rounding * whole[j] || square <= rounding * terms(next.as_ref())[0] {
+            continue;
+        }
+        let [next, momentum] = [next, momentum].map(|column| column * faer::Scale(1.0 / square.sqrt()));
+        for other in &open {
+            let along = dot(column(momentum.as_ref(), 0), column(left.as_ref(), *other));
+            add_scaled(column_mut(left.as_mut(), *other), -along, column(next.as_ref(), 0));
+            add_scaled(column_mut(momenta.as_mut(), *other), -along, column(momentum.as_ref(), 0));
+        }
+        basis = side_by_side(basis.as_ref(), next.as_ref());
     }
-    Ok(basis)
+    basis
 }
 
 /// Singular values (descending) and right singular vectors of a matrix with at least as many rows as columns.
@@ -308,6 +329,11 @@ pub fn symmetrise(a: &mut Mat<f64>) -> f64 {
         }
     }
     if largest > 0.0 { difference / largest } else { 0.0 }
+}
+
+/// The diagonal of a square matrix.
+pub(crate) fn diagonal(a: MatRef<'_, f64>) -> Vec<f64> {
+    (0..a.ncols()).map(|i| a[(i, i)]).collect()
 }
 
 /// |B|ᵀs: what combinations of columns of sizes s add up to at most.

@@ -19,7 +19,8 @@ use supel_runtime::{FileError, MatrixKind};
 use code::catalogued;
 use words::{
     At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, SOFTER_THAN_DIGITS, STATE_DIGITS,
-    STATE_EXACT, Suggested, at_line, column_words, forecast, groups, listed, multipliers, not_text, place, quoted,
+    STATE_EXACT, Suggested, at_line, column_words, forecast, groups, listed, multipliers, named_matrices, not_text,
+    of_file, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -160,30 +161,34 @@ pub enum Error {
         /// The way round.
         advice: &'static str,
     },
-    /// Gzipped data are damaged or cut short.
-    #[entry("E-GZIP", InputData, "copy or create the file again")]
-    #[error("{}: the gzipped data are damaged or cut short – {source} – copy or create the file again", path.display())]
-    GzipDamaged {
+    /// Packed data (gzip, bzip2, zstd) are damaged or cut short.
+    #[entry("E-PACKED", InputData, "copy or create the file again")]
+    #[error("{}: the {data} are damaged or cut short – {source} – copy or create the file again", path.display())]
+    PackedDamaged {
         /// The file.
         path: PathBuf,
+        /// How they are packed, in words.
+        data: &'static str,
         /// What the decoder said.
         source: std::io::Error,
     },
-    /// Gzipped data inflate more than a table of numbers can.
-    #[entry("E-GZIP-BOMB", InputData, "check where the file comes from")]
+    /// Packed data (gzip, bzip2, zstd) expand more than a table of numbers can.
+    #[entry("E-PACKED-BOMB", InputData, "check where the file comes from")]
     #[error(
-        "{}: the gzipped data inflate too far – found {inflated} bytes from {compressed} – expected at most {limit} \
+        "{}: the {data} expand too far – found {unpacked} bytes from {packed} – expected at most {limit} \
         times their size, which tables of numbers keep to – check where the file comes from",
         path.display()
     )]
-    GzipInflation {
+    PackedExpansion {
         /// The file.
         path: PathBuf,
-        /// Bytes read so far.
-        compressed: u64,
-        /// Bytes they gave.
-        inflated: u64,
-        /// The ratio allowed.
+        /// How they are packed, in words.
+        data: &'static str,
+        /// Packed bytes read so far.
+        packed: u64,
+        /// Bytes they became.
+        unpacked: u64,
+        /// Largest ratio that is accepted.
         limit: u64,
     },
     /// A line is longer than any line of numbers.
@@ -598,12 +603,13 @@ pub enum Error {
     #[entry(
         "E-MAP-REPEATED",
         InputData,
-        "give every row its own; renumber nodes that the program repeats, or go on by rows, without map and nodes"
+        "give every row its own; of shells and beams of CalculiX leave .12d and .frd next to the map; or go on by rows"
     )]
     #[error(
         "{}: rows {first_row} and {row} are both {direction} of node {node}, and {repeated} repeat a dof – expected \
         every degree of freedom once (rows count from 1; programs that expand shells or beams into solids repeat \
-        labels) – renumber the nodes, or {BY_ROWS}",
+        labels) – where CalculiX did, put `*NODE OUTPUT, OUTPUT=3D` into a step before the one that stores the matrices \
+        and leave its .12d and .frd next to the map, or {BY_ROWS}",
         path.display()
     )]
     DofRepeated {
@@ -896,7 +902,7 @@ pub enum Error {
     #[entry("E-HDF5-NO-MATRIX", InputData, "give its group after a colon, as in model.h5:/K")]
     #[error(
         "{}:{group}: no sparse matrix – found {} – expected a MATLAB v7.3 or PETSc (`MATLAB_sparse`), anndata, \
-        h5sparse or Exudyn group, or one with data, indices and indptr",
+        h5sparse, Exudyn, Octave, Julia or Binsparse group, or one with data, indices and indptr",
         path.display(), listed(holds)
     )]
     Hdf5NoMatrix {
@@ -906,45 +912,6 @@ pub enum Error {
         group: String,
         /// The objects there.
         holds: Vec<String>,
-    },
-    /// Several matrices could be meant.
-    #[entry("E-HDF5-AMBIGUOUS", InputData, "choose one, as in model.h5:/K")]
-    #[error(
-        "{}: no single matrix whose name says {role} – found {} – choose one, as in {}:{}",
-        path.display(), listed(groups), path.display(), groups.first().map_or("/K", String::as_str)
-    )]
-    Hdf5AmbiguousMatrix {
-        /// The file.
-        path: PathBuf,
-        /// Stiffness or mass.
-        role: &'static str,
-        /// The groups that could be meant.
-        groups: Vec<String>,
-    },
-    /// A matrix has no rows.
-    #[entry("E-HDF5-EMPTY", InputData, "check what was exported")]
-    #[error("{}:{group}: an empty matrix (0 × 0)", path.display())]
-    Hdf5EmptyMatrix {
-        /// The file.
-        path: PathBuf,
-        /// The group.
-        group: String,
-    },
-    /// A matrix is not square or too large.
-    #[entry("E-HDF5-SQUARE", InputData, "export K and M as square matrices")]
-    #[error(
-        "{}:{group}: found a matrix of {n_rows} × {n_cols} – expected a square one of at most {} rows",
-        path.display(), u32::MAX
-    )]
-    Hdf5NotSquare {
-        /// The file.
-        path: PathBuf,
-        /// The group.
-        group: String,
-        /// Number of rows.
-        n_rows: u64,
-        /// Number of columns.
-        n_cols: u64,
     },
     /// A further matrix is not symmetric, and its layout does not say whether rows or columns are compressed.
     #[entry(
@@ -963,21 +930,6 @@ pub enum Error {
         /// The group.
         group: String,
     },
-    /// Row or column pointers do not rise from zero to the number of entries.
-    #[entry("E-HDF5-POINTER", InputData, "write the matrix again")]
-    #[error("{}:{dataset}: pointer {position} is {found} – expected {expected}", path.display())]
-    Hdf5Pointer {
-        /// The file.
-        path: PathBuf,
-        /// The dataset of the pointers.
-        dataset: String,
-        /// Position in the dataset, from zero.
-        position: usize,
-        /// The pointer there.
-        found: i64,
-        /// What it must be.
-        expected: String,
-    },
     /// An index lies outside the matrix or the mesh.
     #[entry("E-HDF5-INDEX", InputData, "write the matrix or mesh again")]
     #[error("{}:{dataset}: entry {position} is {found} – expected {first} to {last}", path.display())]
@@ -995,29 +947,198 @@ pub enum Error {
         /// Largest index allowed.
         last: i64,
     },
-    /// A matrix entry is NaN or infinite.
-    #[entry("E-HDF5-NONFINITE", InputData, "find out why the finite element program wrote it")]
+    /// Several matrices of a file could be meant.
+    #[entry("E-MATRIX-AMBIGUOUS", InputData, "choose one, as in model.h5:/K or model.op4:KAA")]
     #[error(
-        "{}:{dataset}: the entry of row {row}, column {col} (both from 0) is {value} – expected a finite number",
-        path.display()
+        "{}: no single matrix whose name says {role} – found {} – choose one, as in {}:{}",
+        path.display(), listed(matrices), path.display(), matrices.first().map_or("K", String::as_str)
     )]
-    Hdf5NotFinite {
+    MatrixAmbiguous {
         /// The file.
         path: PathBuf,
-        /// The dataset of the values.
-        dataset: String,
-        /// Row, from zero.
-        row: u32,
-        /// Column, from zero.
-        col: u32,
+        /// Stiffness or mass.
+        role: &'static str,
+        /// The matrices that could be meant.
+        matrices: Vec<String>,
+    },
+    /// A file has no matrix of the name that follows its own.
+    #[entry("E-NO-SUCH-MATRIX", InputData, "give one of the names in the message after the colon")]
+    #[error("{}:{name}: no such matrix – {}", path.display(), named_matrices(holds))]
+    MatrixName {
+        /// The file.
+        path: PathBuf,
+        /// The name asked for.
+        name: String,
+        /// The matrices there are.
+        holds: Vec<String>,
+    },
+    /// A file has no matrix that can be read.
+    #[entry("E-NO-MATRIX", InputData, "check which file the finite element program wrote the matrices to")]
+    #[error("{}: no matrix ({format}) – found {} – expected {expected}", path.display(), listed(holds))]
+    MatrixNone {
+        /// The file.
+        path: PathBuf,
+        /// The format.
+        format: &'static str,
+        /// What there is in place of a matrix.
+        holds: Vec<String>,
+        /// What would be read.
+        expected: &'static str,
+    },
+    /// A matrix of a file with named parts is not square, has no rows, or too many.
+    #[entry("E-MATRIX-SIZE", InputData, "export K and M as square matrices")]
+    #[error(
+        "{}:{matrix}: found a matrix of {n_rows} × {n_cols} – expected a square one of 1 to {limit} rows",
+        path.display()
+    )]
+    MatrixSize {
+        /// The file.
+        path: PathBuf,
+        /// The matrix in it.
+        matrix: String,
+        /// Number of rows.
+        n_rows: u64,
+        /// Number of columns.
+        n_cols: u64,
+        /// Most rows.
+        limit: u64,
+    },
+    /// An array of a matrix has not as many values as the others ask.
+    #[entry("E-MATRIX-LENGTH", InputData, "write the matrix again")]
+    #[error("{}:{array}: found {found} – expected {expected}", path.display())]
+    MatrixLength {
+        /// The file.
+        path: PathBuf,
+        /// The array.
+        array: String,
+        /// Values found.
+        found: String,
+        /// Values expected, and where that comes from.
+        expected: String,
+    },
+    /// Row or column pointers do not rise from zero to the number of entries.
+    #[entry("E-MATRIX-POINTER", InputData, "write the matrix again")]
+    #[error("{}:{array}: pointer {position} is {found} – expected {expected}", path.display())]
+    MatrixPointer {
+        /// The file.
+        path: PathBuf,
+        /// The array of the pointers.
+        array: String,
+        /// Position in the array, from zero.
+        position: usize,
+        /// The pointer there.
+        found: i64,
+        /// What it must be.
+        expected: String,
+    },
+    /// An index lies outside the matrix.
+    #[entry("E-MATRIX-INDEX", InputData, "write the matrix again")]
+    #[error("{}:{array}: entry {position} is {found} – expected {first} to {last}", path.display())]
+    MatrixIndex {
+        /// The file.
+        path: PathBuf,
+        /// The array of the indices.
+        array: String,
+        /// Position in the array, from zero.
+        position: usize,
+        /// The index there.
+        found: i64,
+        /// Smallest index allowed.
+        first: i64,
+        /// Largest index allowed.
+        last: i64,
+    },
+    /// An entry of a matrix in numbers of fixed size is NaN or infinite.
+    #[entry("E-MATRIX-NONFINITE", InputData, "find out why the finite element program wrote it")]
+    #[error(
+        "{}:{matrix}: the entry of row {row}, column {col} (both from 1) is {value} – expected a finite number",
+        path.display()
+    )]
+    MatrixNotFinite {
+        /// The file.
+        path: PathBuf,
+        /// The matrix, or the array of its values.
+        matrix: String,
+        /// Row, from one.
+        row: u64,
+        /// Column, from one.
+        col: u64,
         /// The value.
         value: f64,
     },
-    /// No known mesh is in the file.
-    #[entry("E-MESH", InputData, "give a .med, .h5m, .hmf or XDMF mesh, or a node table")]
+    /// A file of matrices is not what its format asks: cut short, damaged, or written by a program with rules of its own.
+    #[entry("E-MATRIX-FORMAT", InputData, "write or copy the file again")]
+    #[error("{}: {format}, {place} – found {found} – expected {expected}", path.display())]
+    MatrixFormat {
+        /// The file.
+        path: PathBuf,
+        /// The format.
+        format: &'static str,
+        /// Line or byte, or part of the file.
+        place: String,
+        /// What stands there.
+        found: String,
+        /// What the format asks.
+        expected: Box<str>,
+    },
+    /// A matrix is of a kind that is not read: complex, of text, of single marks.
+    #[entry("E-MATRIX-UNREAD", InputData, "write a real matrix in double precision")]
+    #[error("{}: {format}, {place} – {found} – not read – expected {expected}", path.display())]
+    MatrixUnread {
+        /// The file.
+        path: PathBuf,
+        /// The format.
+        format: &'static str,
+        /// The matrix, or where it stands.
+        place: String,
+        /// What it is.
+        found: String,
+        /// What is read.
+        expected: &'static str,
+    },
+    /// The content of a file fits several formats.
+    #[entry("E-FORMAT-AMBIGUOUS", InputData, "name the format by `layout` in the job, or by `reduce --layout`")]
     #[error(
-        "{}: no mesh that can be read – found {} – expected .hmf (/domain/grid/Geometry), XDMF, .med (/ENS_MAA) or \
-        .h5m (/tstt)",
+        "{}: its content fits several formats – found {} – name the one that it is by `layout` in the job, or by reduce --layout {}",
+        path.display(), listed(formats), formats.first().map_or("", String::as_str)
+    )]
+    FormatAmbiguous {
+        /// The file.
+        path: PathBuf,
+        /// Their names.
+        formats: Vec<String>,
+    },
+    /// One matrix names nodes and directions of its rows, another one does not, and no dof map says which rows those are.
+    #[entry("E-ROWS-UNNAMED", InputData, "give the dof map, or write both matrices in one format")]
+    #[error(
+        "{}: the matrices of the job do not agree on whether rows have names – found one that names nodes and directions and one \
+        that does not – expected both to, or a dof map – give `dofs`, or write both in one format",
+        path.display()
+    )]
+    RowsUnnamed {
+        /// The file of a matrix.
+        path: PathBuf,
+    },
+    /// A matrix names rows that the dof map, or the other matrices, do not have.
+    #[entry("E-ROW-UNKNOWN", InputData, "write dof map and matrices from one model")]
+    #[error(
+        "{}: rows that the others do not have – found {} – expected those of the {n_rows} rows of the dof map or of K and M – write \
+        all of them from one model",
+        path.display(), listed(missing)
+    )]
+    RowUnknown {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// Node and direction of each row that is not there.
+        missing: Vec<String>,
+        /// Rows that are there.
+        n_rows: usize,
+    },
+    /// No known mesh is in the file.
+    #[entry("E-MESH", InputData, "give a mesh in a format of docs/meshes.md, or a node table")]
+    #[error(
+        "{}: no mesh that can be read – found {} – expected .hmf (/domain/grid/Geometry), .med (/ENS_MAA), \
+        .h5m (/tstt), VTKHDF (/VTKHDF), Exodus or CGNS",
         path.display(), listed(holds)
     )]
     MeshUnknown {
@@ -1119,6 +1240,74 @@ pub enum Error {
         /// The reference as it is written.
         reference: String,
     },
+    /// A line of a mesh in text is not what its format has there, or the text ends too early.
+    #[entry("E-MESH-TEXT", InputData, "correct the line, or export the mesh again where it ends too early")]
+    #[error("{}:{line}: found {found} – expected {expected} – correct the line, or export the mesh again", path.display())]
+    MeshText {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// What is there.
+        found: String,
+        /// What belongs there.
+        expected: String,
+    },
+    /// A binary mesh holds something that its format does not have there, or ends too early.
+    #[entry("E-MESH-BINARY", InputData, "export the mesh again, or as text")]
+    #[error("{}: at byte {offset} – found {found} – expected {expected} – export the mesh again, or as text", path.display())]
+    MeshBinary {
+        /// The file.
+        path: PathBuf,
+        /// Where it is, from 0.
+        offset: u64,
+        /// What is there.
+        found: String,
+        /// What belongs there.
+        expected: String,
+    },
+    /// A deck includes a file that is not in its folder, or more files than any deck does.
+    #[entry("E-INCLUDE", InputData, "put the file into the folder of the deck and name it by a relative path")]
+    #[error(
+        "{}:{line}: includes `{reference}`, {reason} – expected a file in the folder of the deck or below – put it there",
+        path.display()
+    )]
+    DeckInclude {
+        /// The file with the line.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// The name as it is written.
+        reference: String,
+        /// Why it is not read.
+        reason: &'static str,
+    },
+    /// A deck makes its mesh by something that is not read.
+    #[entry("E-DECK", InputData, "have the program write out the mesh, as the message says")]
+    #[error("{}:{line}: {found} – {advice}", path.display())]
+    DeckUnsupported {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1.
+        line: u64,
+        /// What is there, in words.
+        found: String,
+        /// The way round.
+        advice: &'static str,
+    },
+    /// The groups of a mesh have more members than nodes and elements of a real mesh.
+    #[entry("E-GROUPS", InputData, "export the mesh again with fewer groups")]
+    #[error(
+        "{}: its groups have more than {limit} members – expected no more than 64 groups at a node or element – export it \
+        again with fewer groups",
+        path.display()
+    )]
+    MeshGroups {
+        /// The file.
+        path: PathBuf,
+        /// Members that are too many.
+        limit: usize,
+    },
     /// The job document is not valid TOML or JSON, or a value has the wrong kind.
     #[entry("E-JOB", Usage, "correct the line")]
     #[error("{}{}: {message}", path.display(), At(*line))]
@@ -1188,6 +1377,17 @@ pub enum Error {
         /// Whether the key is there.
         found: &'static str,
     },
+    /// The job names no mass, and what it asks depends on one.
+    #[entry(
+        "E-JOB-MASS",
+        Usage,
+        "name the file of M; a static scene with `gravity = false`, without loads of rotation, added masses or an expected mass needs none"
+    )]
+    #[error(
+        "`model.mass` is missing – expected the file of M; a scene with analysis = \"static\" and gravity = false needs none, unless loads \
+        of rotation, added masses, an expected mass or a preloaded state do"
+    )]
+    JobMass,
     /// Two interfaces have one name.
     #[entry("E-INTERFACE-NAME", Usage, "give each its own")]
     #[error("interface `{name}` is defined twice – names must be unique")]
@@ -1232,6 +1432,71 @@ pub enum Error {
         /// Names of the job's interfaces.
         known: Vec<String>,
     },
+    /// A statement of the scene names no interface, or a direction of none.
+    #[entry(
+        "E-SCENE-PART",
+        Usage,
+        "use the name of an interface, or a name, a dot and a direction: hub.ux; the message lists the names"
+    )]
+    #[error("scene.{key}: `{part}` is no interface and no direction of one – the job has {}", listed(known))]
+    ScenePart {
+        /// The key of the scene.
+        key: &'static str,
+        /// What it names.
+        part: String,
+        /// Names of the job's interfaces.
+        known: Vec<String>,
+    },
+    /// The scene says two things of one interface dof.
+    #[entry("E-SCENE-CONFLICT", Usage, "say one of them: connected, unloaded, grounded or prescribed")]
+    #[error("scene: `{part}` is {first} and {second} – say one of them")]
+    SceneConflict {
+        /// The interface, or the direction of one.
+        part: String,
+        /// What is said first.
+        first: &'static str,
+        /// What is said second.
+        second: &'static str,
+    },
+    /// A rigid body that the scene prescribes has no name of its own, or no interfaces.
+    #[entry(
+        "E-SCENE-CARRIER",
+        Usage,
+        "give it a name that no other interface has, and the interfaces that are parts of it"
+    )]
+    #[error("scene.prescribed: `{name}` {found} – expected a name of its own and the interfaces that are parts of it")]
+    SceneCarrier {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        found: String,
+    },
+    /// A key of the job names an interface that the scene leaves out.
+    #[entry(
+        "E-SCENE-LEFT-OUT",
+        Usage,
+        "take the interface out of the one or of the other; a carrier has a name of its own"
+    )]
+    #[error(
+        "{key}: `{said}`: the scene says that `{name}` is {of}, so that the superelement has no such interface – say one of the two"
+    )]
+    SceneLeftOut {
+        /// The key.
+        key: &'static str,
+        /// What it says.
+        said: String,
+        /// The interface.
+        name: String,
+        /// What the scene says of it.
+        of: &'static str,
+    },
+    /// A static analysis is asked for together with something that moves.
+    #[entry("E-SCENE-STATIC", Usage, "leave out the key, or ask for another analysis")]
+    #[error("scene.{key}: a static analysis has nothing that moves – leave out the key, or ask for another analysis")]
+    SceneStatic {
+        /// The key of the scene.
+        key: &'static str,
+    },
     /// An interface or held dofs list a node, row or direction twice.
     #[entry("E-DUP-INTERFACE", Usage, "list each once")]
     #[error("{selector}: {what} is listed twice – list each once")]
@@ -1256,9 +1521,9 @@ pub enum Error {
         name: String,
     },
     /// The keys of a load are those of no load, or of several.
-    #[entry("E-LOAD-KEYS", Usage, "give `nodes` with `force`, or `file`, or `rotation`")]
+    #[entry("E-LOAD-KEYS", Usage, "give `nodes` with `force` or `pressure`, or `file`, or `rotation`")]
     #[error(
-        "load `{load}` has {} – expected `nodes` with `force`, or `file` (with `column`, where it has several), or \
+        "load `{load}` has {} – expected `nodes` with `force` or with `pressure`, or `file` (with `column`, where it has several), or \
         `rotation` – leave the others out",
         quoted(found)
     )]
@@ -1780,6 +2045,85 @@ pub enum Error {
         /// What was found, in words.
         found: &'static str,
     },
+    /// The frequencies of modes cannot be read.
+    #[entry("E-VALUES", InputData, "write a number on each line, or all of them on one")]
+    #[error("{}{}: frequencies of modes – found {found} – expected {expected}", path.display(), at_line(*line))]
+    ValuesFormat {
+        /// The file.
+        path: PathBuf,
+        /// Line number, from 1, of a text.
+        line: Option<u64>,
+        /// What is there, in words.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// There are more or fewer frequencies than modes.
+    #[entry("E-VALUES-COUNT", InputData, "give a frequency for each mode, in their order")]
+    #[error(
+        "{}the frequencies do not go with the modes – found {} – expected {n_modes} – give one for each mode, in their order",
+        of_file(path.as_deref()), counted(*found, "frequency", "frequencies")
+    )]
+    ValuesCount {
+        /// The file, where they are in one.
+        path: Option<PathBuf>,
+        /// Frequencies, or as many as were read.
+        found: u64,
+        /// Modes.
+        n_modes: usize,
+    },
+    /// A reduced matrix of another size than its basis.
+    #[entry("E-REDUCED-SIZE", InputData, "give K̂ and M̂ of the basis that is given: a row for each of its columns")]
+    #[error(
+        "{}: the reduced matrix does not go with the basis – found {} – expected {n_columns}, one for each column of the basis",
+        path.display(), counted(*found, "row", "rows")
+    )]
+    ReducedSize {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// Its rows.
+        found: usize,
+        /// Columns of the basis.
+        n_columns: usize,
+    },
+    /// A job that is there already.
+    #[entry(
+        "E-OUTPUT-EXISTS",
+        Usage,
+        "give another name, or move the file away: what was written by hand is not replaced"
+    )]
+    #[error("--output: {} is there already – give another name, or move it away", path.display())]
+    OutputExists {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A code that nothing has.
+    #[entry("E-CODE", Usage, "take the code that the message offers, or see all by `supel explain`")]
+    #[error("no error, warning or check has the code {code}{}", Offered(suggestion))]
+    CodeUnknown {
+        /// What was typed.
+        code: String,
+        /// A code that looks like it.
+        suggestion: Option<String>,
+    },
+    /// Frequencies that modes are said to have are theirs in another unit.
+    #[entry("E-VALUES-UNIT", Usage, "say the unit that the message names")]
+    #[error(
+        "the numbers of the modes are not {stated} – found that {n_agree} of {n_modes} are {found}, by the shapes of the modes – \
+        expected numbers in the unit that is said – say {flag}"
+    )]
+    ValuesUnit {
+        /// What they were said to be.
+        stated: &'static str,
+        /// What they are.
+        found: String,
+        /// How many of them.
+        n_agree: usize,
+        /// Modes.
+        n_modes: usize,
+        /// The flag that says so, or what to do.
+        flag: String,
+    },
     /// Mode acceleration answers inertia forces while something holds the component.
     #[entry("E-MODES-UNHELD", ModelPhysics, "name an interface, or hold dofs by [[fixed]]")]
     #[error(
@@ -2250,10 +2594,10 @@ pub enum Error {
         /// The first of them.
         first: String,
     },
-    /// A rigid-body motion has negative energy, and a count finds the eigenvalue.
+    /// A motion as a whole, or of a mechanism, has negative energy, and a count finds the eigenvalue.
     #[entry("E-NEG-RIGID", ModelPhysics, "check preload and negative springs")]
     #[error(
-        "a rigid-body motion has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count \
+        "a motion that strains nothing has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count \
         finds {} below half of it: the stiffness is indefinite – check preload and negative springs; {STATE_DIGITS}",
         counted(*count, "eigenvalue", "eigenvalues")
     )]
@@ -2533,6 +2877,22 @@ pub enum Error {
         /// Why they are not known, in words.
         found: String,
     },
+    /// A pressure acts on faces that are not known.
+    #[entry(
+        "E-LOAD-FACES",
+        InputData,
+        "give a mesh whose cells have faces between the nodes, or write the nodal forces to a file"
+    )]
+    #[error(
+        "load `{load}`: `pressure` acts on the faces between its nodes – found: {found} – expected a mesh whose cells have faces with all \
+        their nodes among them – give such a mesh, or write the forces to a file and name that"
+    )]
+    LoadWithoutFaces {
+        /// Name of the load.
+        load: String,
+        /// Why they are not known, in words.
+        found: String,
+    },
     /// There are more or fewer weights than nodes.
     #[entry("E-WEIGHTS", Usage, "give one weight for each node, in the order of the nodes")]
     #[error(
@@ -2675,6 +3035,23 @@ pub enum Error {
         of which Rubin's attachment modes are made – use herting or craig-bampton"
     )]
     NoAttachmentModes,
+    /// The interface of Rubin's method leaves rigid-body motions free, and the answers to unit loads on it are nearly dependent.
+    #[entry(
+        "E-ATTACHMENT-ILL",
+        NumericalLimit,
+        "couple nodes that are tied to each other by one rigid patch, or leave some of them out"
+    )]
+    #[error(
+        "the answers to unit loads on the interface have the condition {condition:.1e}, and their inverse an error of more than {error:.0e} – \
+        expected interface dofs that move independently – couple nodes that are tied stiffly to each other by one rigid patch, or leave \
+        some of them out; an interface that reacts all rigid-body motions needs no inverse"
+    )]
+    AttachmentCondition {
+        /// κ(A_B) with unit diagonal.
+        condition: f64,
+        /// The error of its inverse that is accepted.
+        error: f64,
+    },
     /// The digits of the stiffness leave open whether it is definite, or how many motions cost no energy.
     #[entry(
         "E-DATA-PRECISION",
@@ -2999,6 +3376,15 @@ pub enum Error {
         matrix: &'static str,
         /// The eigenvalue, relative to the largest.
         value: f64,
+    },
+    /// A component was reduced for statics alone.
+    #[entry("E-ASSEMBLY-STATIC", InputData, "reduce the component for another analysis than `static`")]
+    #[error(
+        "component {name} was reduced for statics alone and has no mass – expected one – reduce it for another analysis than `static`"
+    )]
+    AssemblyNoMass {
+        /// The component.
+        name: String,
     },
     /// A component was reduced by a method that leaves static answers without mass.
     #[entry("E-ASSEMBLY-MASSLESS", InputData, "reduce the component with herting, whose space is the same")]

@@ -5,11 +5,15 @@
 
 mod accept;
 mod added_mass;
+mod analysis;
+mod carrier;
 mod damping;
 mod document;
 mod fixed;
-mod held_interface;
+mod gravity;
 mod interface;
+mod interface_part;
+mod layout;
 mod load;
 mod location;
 mod matrix;
@@ -21,9 +25,12 @@ mod reading;
 mod recovery;
 mod reduction;
 mod scene;
+mod scene_validation;
 mod schema;
 mod selection;
 mod shape;
+mod statements;
+mod support;
 mod types;
 mod validation;
 mod whole;
@@ -31,11 +38,15 @@ mod whole;
 pub use crate::eigen::Eigensolver;
 pub use accept::AcceptJob;
 pub use added_mass::AddedMassJob;
+pub use analysis::AnalysisJob;
+pub use carrier::CarrierJob;
 pub use damping::{ComponentDampingJob, MassActsOn, ModalDampingJob, RayleighJob, RigidMotionDamping};
 pub use document::Notation;
 pub use fixed::FixedJob;
-pub use held_interface::HeldInterface;
+pub use gravity::GravityJob;
 pub use interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
+pub use interface_part::InterfacePart;
+pub use layout::Layout;
 pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
 pub use matrix::MatrixJob;
@@ -44,11 +55,14 @@ pub use node_selection::{NodeSelection, Region};
 pub use quantities::QuantitiesJob;
 pub use recovery::RecoveryJob;
 pub use reduction::{ModeSelection, ModesJob, ReductionJob};
-pub use scene::{DampingJob, SceneJob, Support, boundary_in_words};
+pub use scene::{DampingJob, SceneJob};
 pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;
+pub use statements::DofUse;
+pub use support::{Support, boundary_in_words};
 pub use types::{
-    Certify, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, ModelState, Precision, RunJob, WriteJob,
+    Certify, ConstraintStorage, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, ModelState, Precision,
+    RunJob, Skip, WriteJob,
 };
 pub(crate) use validation::ends_in;

@@ -10,8 +10,9 @@
 //! input → model → coordinates → partition → rigid → factor → constraint → modes → basis → reduction → verification → output
 //! ```
 //!
-//! One file or folder for each word, one type handed from each to the next. [`reduce`] is this line; nothing else
-//! composes stages.
+//! One file or folder for each word, one type handed from each to the next. [`reduce`] is this line, which stands in `line.rs`;
+//! [`verify`], [`forecast`], [`certify`] and [`examine`] begin with it. Nothing else composes stages. What a run leaves out of it, because
+//! the scene of the job never asks for it, is decided in [`plan`], and there alone.
 //!
 //! | stage | takes | gives |
 //! |---|---|---|
@@ -77,9 +78,9 @@
 //! ```text
 //! number · dofs · error · heap · foreign_exit · regular_file · linked · random · dense · sparse
 //! factor · eigen
-//! job · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping
-//! memory_forecast · size_forecast · verification · audit · assembly
-//! report · output · outcome · export · recovery · cli
+//! job · plan · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping
+//! memory_forecast · size_forecast · cost_forecast · verification · audit · certification · assembly
+//! report · output · outcome · examination · line · looks · conversion · export · recovery · cli
 //! ```
 //!
 //! # Invariants
@@ -99,21 +100,27 @@
 pub mod assembly;
 pub mod audit;
 pub mod basis;
+pub mod certification;
 pub mod cli;
 pub mod constraint;
+pub mod conversion;
 pub mod coordinates;
+pub mod cost_forecast;
 pub mod damping;
 pub mod dense;
 pub mod dofs;
 pub mod eigen;
 pub mod error;
+pub mod examination;
 pub mod export;
 pub mod factor;
 pub mod foreign_exit;
 pub mod heap;
 pub mod input;
 pub mod job;
+mod line;
 mod linked;
+mod looks;
 pub mod memory_forecast;
 pub mod modal_mass;
 pub mod model;
@@ -122,6 +129,7 @@ mod number;
 pub mod outcome;
 pub mod output;
 pub mod partition;
+pub mod plan;
 pub mod random;
 pub mod recovery;
 pub mod reduction;
@@ -134,24 +142,22 @@ pub mod sparse;
 pub mod verification;
 
 use audit::{Audit, Reference};
-use basis::Basis;
-use constraint::{Constrained, LooseMotions, constrained};
-use damping::{Damping, refuse_resistance};
+use cost_forecast::{Counting, ExpectedModes, Forecast};
 use error::Result;
-use factor::Analysis;
-use input::{Allowance, InputFacts};
 use job::{AcceptJob, Job};
+use line::{Stages, concluded, known, prepared, with_stages};
 use memory_forecast::Resources;
-use model::Model;
-use modes::{Component, ModeSource, Retained, Search};
 use outcome::Outcome;
-use output::Results;
-use partition::{CarriedMatrix, Expansion, Loads, Partition, Quantities};
-use random::SEED;
-use reduction::Reduction;
+use partition::Partition;
+use plan::Plan;
 use report::Observer;
 use supel_runtime::Superelement;
 use verification::Evidence;
+
+pub use looks::{certify, examine};
+
+/// What the command line runs.
+pub const PIPELINE: cli::Pipeline = cli::Pipeline { reduce, verify, certify, examine, forecast, rates: cli::rates };
 
 /// Reduces a component: the whole method, step by step.
 ///
@@ -160,146 +166,31 @@ use verification::Evidence;
 /// # Errors
 /// The errors of the stages; each says what is wrong, where, what was found, what was expected and what to do.
 pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<Outcome> {
-    let (facts, partition) = prepared(job, resources, observer)?;
-    with_stages(job, &partition, (resources, observer), |stages, observer| {
-        let Stages { evidence, analysis, loose, n_other_factors } = stages;
-        observer.stage("verification");
-        let findings = verification::verify(&evidence)?;
-
-        observer.stage("preservation");
-        let preserved = verification::preservation(&evidence, analysis, job)?;
-
-        let (input, findings, preserved) = (&facts, &findings, &preserved);
-        let results = Results { job, input, loose, evidence, findings, preserved, analysis, n_other_factors };
-        output::output(&results).map(|(superelement, report)| Outcome { superelement, report })
+    let plan = Plan::of(job);
+    // read → check → coordinates → partition
+    let (facts, partition) = prepared(&plan, resources, observer)?;
+    // rigid-body modes → factor → constraint modes → modes → certificate → basis → projection → enclosures
+    with_stages(&plan, &partition, (resources, observer), |stages, observer| {
+        // verification → preservation → output
+        concluded(&stages, &facts, observer)
     })
 }
 
-/// What the stages up to the projection have made.
-struct Stages<'a> {
-    evidence: Evidence<'a>,
-    analysis: &'a Analysis,
-    loose: &'a LooseMotions,
-    /// Factorisations in addition to that of K_II.
-    n_other_factors: usize,
-}
-
-/// The stages from the rigid-body modes to the projection, and what is made of their results.
-fn with_stages<T>(
-    job: &Job,
-    partition: &Partition,
-    (resources, observer): (Resources, &mut dyn Observer),
-    then: impl FnOnce(Stages<'_>, &mut dyn Observer) -> Result<T>,
-) -> Result<T> {
-    size_forecast::of_interfaces(partition).iter().for_each(|warning| observer.warned(warning));
+/// Says what [`reduce`] is going to do and what it will cost, before its first factorisation.
+///
+/// # Errors
+/// The errors of [`reduce`] up to its first factorisation; no memory for a count of modes.
+pub fn forecast(job: &Job, resources: Resources, counting: Counting, observer: &mut dyn Observer) -> Result<Forecast> {
+    let plan = Plan::of(job);
+    let (_, partition) = prepared(&plan, resources, observer)?;
     observer.stage("rigid-body modes");
-    // The analysis reads the pattern of the matrices alone, so that it runs at the same time.
-    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(partition), || partition.analysis());
-    let ((rigid, n_extra), analysis) = (rigid?, analysis?);
-    let rank = refuse_resistance(job, partition, &rigid).and_then(|()| rigid::interface_rank(partition, &rigid))?;
-
-    observer.stage("factor");
-    let storage = memory_forecast::storage_within_memory(&analysis, partition, job, resources)?;
-    let factor = constraint::interior_factor(partition, &analysis, &rigid, storage)?;
-
-    observer.stage("constraint modes");
-    let Constrained { modes: constraint, rigid, rank, loose } = constrained(partition, &factor, rigid, rank)?;
-
-    observer.stage("modes");
-    let component = Component::new(partition, &analysis, &factor, &rigid, &constraint);
-    let search = Search::new(component, &job.reduction)?;
-    let size = (storage, search.n_expected());
-    let forecast = search.n_expected().and_then(|n_modes| size_forecast::of_modes(n_modes, job));
-    forecast.iter().for_each(|warning| observer.warned(warning));
-    let at_once = memory_forecast::slices_within_memory(&analysis, partition, job, resources, size)?;
-    let found = factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?;
-
-    observer.stage("certificate");
-    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.certified())?;
-    let retained = Retained::new(partition, found, search.problem.boundary);
-
-    observer.stage("basis");
-    let answers = basis::static_answers(component);
-    let named = basis::retained_columns(component, &job.reduction, &retained).with_answers(component, answers.as_ref());
-    let basis = Basis::answering(component, &named).with_coordinates()?;
-
-    observer.stage("projection");
-    let reduction = Reduction::new(partition, &basis, &rigid).with_mass_of(&job.reduction, &basis, &retained)?;
-    let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
-
-    let damping = Damping::of_reduction(job, partition, &reduction)?;
-
-    observer.stage("enclosures");
-    let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
-
-    let evidence = Evidence {
-        partition,
-        factor: &factor,
-        rigid: &rigid,
-        rank,
-        constraint: &constraint,
-        retained: &retained,
-        basis: &basis,
-        reduction: &reduction,
-        answers: answers.as_ref(),
-        rubin: rubin.as_ref(),
-        damping: damping.as_ref(),
-        certificate: certificate.as_ref(),
-        enclosures: enclosures.as_ref(),
-        expect: job.model.expect.as_ref(),
-    };
-    let n_other_factors = n_extra + usize::from(search.edge().is_some());
-    then(Stages { evidence, analysis: &analysis, loose: &loose, n_other_factors }, observer)
-}
-
-/// The first four stages, which every look at the full model begins with.
-fn prepared(job: &Job, resources: Resources, observer: &mut dyn Observer) -> Result<(InputFacts, Partition)> {
-    // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
-    faer::set_global_parallelism(faer::Par::Seq);
-
-    observer.stage("read");
-    let allowance = Allowance::of(resources.allowed(job));
-    let mut read = input::read_within(&job.model, &allowance)?;
-    let columns = input::load_columns(&job.loads, &read)?;
-    let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
-    let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
-    let matrices = input::further_matrices(job, &read, &allowance)?;
-    let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
-    let mut facts = facts.with_quantities(rows.as_ref()).with_matrices(&matrices);
-
-    observer.stage("check");
-    facts.notes.extend(model::add_masses(&mut read, &job.added_masses)?);
-    let model = Model::new(read)?;
-
-    observer.stage("coordinates");
-    let tied = partition::nodes_of_patches(&model, &job.interfaces);
-    facts.notes.extend(partition::reference_nodes(&model, &job.interfaces));
-    let model = coordinates::compared(model, &job.model.held_rotations, &tied)?;
-    facts.notes.extend(coordinates::remark(&model).map(str::to_owned));
-
-    observer.stage("partition");
-    let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
-    let loads = partition::loads(&model, &job.loads, &columns)?;
-    let modes = modes.map(|modes| partition::expansion_modes(&model, &modes)).transpose()?;
-    let quantities = partition::quantities(&model, rows)?;
-    let matrices = partition::further_matrices(&model, matrices)?;
-    let patches = partition::patches(&model, &job.interfaces);
-    facts.faces = input::patch_faces(&job.model, &patches, &allowance)?;
-    let interfaces = partition::with_faces(&job.interfaces, &facts.faces)?;
-    let is_weighed = job.model.expect.is_some() || !job.fixed.is_empty();
-    let weight = if is_weighed { model.weight() } else { None };
-    let held = partition::held(&model, &job.fixed)?;
-    let mut partition = Partition::with_held(model, &interfaces, held)?;
-    partition.recovered = recovered;
-    partition.quantities = Quantities::carried(quantities, &partition.transformation);
-    partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
-    partition.loads = Loads::carried(loads, &partition.transformation)?;
-    if let Some(modes) = modes {
-        partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
-    }
-    partition.model.weight = weight;
-    job.reduction.held.as_ref().map_or(Ok(()), |held| partition.hold_for_modes(held))?;
-    Ok((facts, partition))
+    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || partition.analysis());
+    let ((rigid, _), analysis) = (rigid?, analysis?);
+    let (_, plan) = known(&plan, &partition, &rigid)?;
+    observer.stage("count of modes");
+    let modes = ExpectedModes::of(&plan, &partition, &analysis, counting)?;
+    let text_bytes = input::bytes_of_matrices(plan.job());
+    Ok(Forecast::new(plan, (&partition, &analysis), modes, resources, text_bytes))
 }
 
 /// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.
@@ -313,22 +204,23 @@ pub fn verify(
     observer: &mut dyn Observer,
 ) -> Result<Audit> {
     faer::set_global_parallelism(faer::Par::Seq);
-
     let Some(job) = job else {
         observer.stage("verification");
         return audit::of_file(superelement);
     };
-    let (facts, partition) = prepared(job, resources, observer)?;
+    let plan = Plan::of(job);
+    let (facts, partition) = prepared(&plan, resources, observer)?;
 
     observer.stage("reference");
-    memory_forecast::comparison_within_memory(&partition, job, resources, superelement.tensors().frequencies.len())?;
-    let reference = Reference::new(job, &facts, &partition)?;
+    let n_modes = superelement.tensors().frequencies.len();
+    memory_forecast::comparison_within_memory(&partition, plan.job(), resources, n_modes)?;
+    let reference = Reference::new(&plan, &facts, &partition)?;
 
     observer.stage("comparison");
     let mut audit = audit::against(superelement, &reference)?;
     drop(reference);
     if job.accepted() != AcceptJob::default() {
-        audit = audit.joined(accepted(superelement, job, &partition, (resources, observer))?);
+        audit = audit.joined(accepted(superelement, &plan, &partition, (resources, observer))?);
     }
     Ok(audit)
 }
@@ -336,19 +228,18 @@ pub fn verify(
 /// What the scene accepts, measured on the matrices of a file by the stages of a reduction of the same job.
 fn accepted(
     superelement: &Superelement,
-    job: &Job,
+    plan: &Plan,
     partition: &Partition,
     (resources, observer): (Resources, &mut dyn Observer),
 ) -> Result<Audit> {
-    with_stages(job, partition, (resources, observer), |Stages { evidence: own, analysis, .. }, observer| {
+    with_stages(plan, partition, (resources, observer), |Stages { evidence: own, analysis, .. }, observer| {
         observer.stage("preservation");
         let Some(reduction) = audit::reduction_of(superelement, &own) else {
-            return Ok(Audit::unlike(
-                "what the scene accepts was not measured: its coordinates are not those of the job",
-            ));
+            let why = "what the scene accepts was not measured: its coordinates are not those of the job";
+            return Ok(Audit::unlike(why));
         };
         let evidence = Evidence { reduction: &reduction, ..own };
-        let compared = verification::preservation_of_file((&evidence, &own), analysis, job)?;
+        let compared = verification::preservation_of_file((&evidence, &own), analysis, plan.job())?;
         Ok(Audit::of_accuracy(&compared))
     })
 }

@@ -10,5 +10,5 @@ fn main() -> std::process::ExitCode {
     supel::heap::keep_large_blocks();
     supel::heap::end_once();
     let _until_the_end = supel::foreign_exit::watch();
-    supel::cli::main(supel::cli::Pipeline { reduce: supel::reduce, verify: supel::verify }, stdout::state())
+    supel::cli::main(supel::PIPELINE, stdout::state())
 }

@@ -5,12 +5,15 @@ use crate::factor::{Analysis, Storage};
 use crate::job::{Boundary, Certify, Job, ModeSelection, Precision};
 use crate::modes::{LARGEST_SEARCH, SLICED_FROM};
 use crate::partition::Partition;
+use crate::plan::{Plan, Statics};
 use crate::sparse::ENTRY_BYTES;
 
 /// Bytes of a double.
 const DOUBLE: u64 = 8;
 /// Modes assumed for a band whose number of modes is not known yet.
 const MODES_IN_A_BAND: u64 = 50;
+/// Columns of the constraint modes that are there at once where they are not stored.
+const PANEL: u64 = 64;
 /// Vectors in addition to the right-hand sides of a solve by a factor in single precision.
 const REFINEMENT: u64 = 72;
 /// Blocks of all modes that basis, projection, verification and comparison hold together: 5.9 with 800 fixed-interface modes of a
@@ -44,11 +47,14 @@ impl Resources {
 }
 
 /// What a run needs, in bytes.
-#[derive(Clone, Copy, Debug)]
-struct Forecast {
-    factors: u64,
-    matrices: u64,
-    vectors: u64,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Memory {
+    /// Factors, and what waits for its parent while one is made.
+    pub factors: u64,
+    /// K, M and their copies.
+    pub matrices: u64,
+    /// Constraint modes, modes, the bases of the eigensolver, recovered rows.
+    pub vectors: u64,
 }
 
 /// How the factor is to be kept so that a run fits into the memory allowed by the job, or else what the machine offers: as the
@@ -59,11 +65,11 @@ struct Forecast {
 pub fn storage_within_memory(
     analysis: &Analysis,
     partition: &Partition,
-    job: &Job,
+    plan: &Plan,
     resources: Resources,
 ) -> Result<Storage> {
-    let fits = |storage| slices_within_memory(analysis, partition, job, resources, (storage, None)).map(|_| storage);
-    match job.run.precision {
+    let fits = |storage| slices_within_memory(analysis, partition, plan, resources, (storage, None)).map(|_| storage);
+    match plan.job().run.precision {
         Precision::Double => fits(Storage::Double),
         Precision::Mixed => fits(Storage::Single),
         Precision::Auto => fits(Storage::Double).or_else(|_| fits(Storage::Single)),
@@ -82,10 +88,11 @@ pub fn storage_within_memory(
 pub fn slices_within_memory(
     analysis: &Analysis,
     partition: &Partition,
-    job: &Job,
+    plan: &Plan,
     resources: Resources,
     (storage, n_modes): (Storage, Option<usize>),
 ) -> Result<usize> {
+    let job = plan.job();
     let n_threads = rayon::current_num_threads();
     let Some(available) = resources.allowed(job) else {
         return Ok(n_threads);
@@ -95,15 +102,25 @@ pub fn slices_within_memory(
         (None, ModeSelection::UpTo { .. }) => MODES_IN_A_BAND,
     };
     let forecast = |storage, at_once: usize| {
-        let search = SearchSize { certify: job.run.certify, n_modes, at_once: at_once as u64 };
-        Forecast::of(analysis, partition, search, storage)
+        let search = SearchSize::of(plan, n_modes, at_once as u64);
+        Memory::of(analysis, partition, search, storage)
     };
     if let Some(at_once) = (1..=n_threads).rev().find(|at_once| forecast(storage, *at_once).total() <= available) {
         return Ok(at_once);
     }
-    let Forecast { factors, matrices, vectors } = forecast(storage, 1);
+    let Memory { factors, matrices, vectors } = forecast(storage, 1);
     let in_single = Some(forecast(Storage::Single, 1).total()).filter(|needed| *needed <= available);
     Err(Error::MemoryForecast { available, factors, matrices, vectors, in_single })
+}
+
+/// What a planned run with so many modes will hold at once, with its factor in double precision unless the job says otherwise.
+pub fn expected(analysis: &Analysis, partition: &Partition, plan: &Plan, n_modes: usize) -> Memory {
+    let storage = match plan.job().run.precision {
+        Precision::Mixed => Storage::Single,
+        Precision::Double | Precision::Auto => Storage::Double,
+    };
+    let at_once = rayon::current_num_threads() as u64;
+    Memory::of(analysis, partition, SearchSize::of(plan, n_modes as u64, at_once), storage)
 }
 
 /// Makes sure that a superelement with this many modes can be compared with its full model in the memory allowed by the job, or else
@@ -134,13 +151,20 @@ pub fn comparison_within_memory(partition: &Partition, job: &Job, resources: Res
 #[derive(Clone, Copy)]
 struct SearchSize {
     certify: Certify,
+    statics: Statics,
     n_modes: u64,
     at_once: u64,
 }
 
-impl Forecast {
+impl SearchSize {
+    fn of(plan: &Plan, n_modes: u64, at_once: u64) -> Self {
+        Self { certify: plan.job().run.certify, statics: plan.statics(), n_modes, at_once }
+    }
+}
+
+impl Memory {
     fn of(analysis: &Analysis, partition: &Partition, search: SearchSize, storage: Storage) -> Self {
-        let SearchSize { certify, n_modes, at_once } = search;
+        let SearchSize { certify, statics, n_modes, at_once } = search;
         let n = partition.n_dofs() as u64;
         // The partitioned matrices and the triangle with wide indices that the analysis makes; a proof lowers K in a copy.
         let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
@@ -168,11 +192,12 @@ impl Forecast {
         let (n_copies, n_free) = free.map_or((n_copies, 0), |free| (n_copies + 1, free.len() as u64));
         // The loads and the inertia forces of the modes of a file, their static answers and their columns of the basis.
         let of_loads = 3 * (partition.loads.count() + partition.expansion.count()) as u64;
-        let vectors = of_loads
-            + n_free
-            + 2 * partition.n_interface() as u64
-            + of_solver.max(BLOCKS_OF_MODES * n_modes)
-            + refinement;
+        let n_b = partition.n_interface() as u64;
+        let of_statics = match statics {
+            Statics::Stored => 2 * n_b,
+            Statics::ByFactor | Statics::Condensed | Statics::Carried => n_b.min(PANEL),
+        };
+        let vectors = of_loads + n_free + of_statics + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
         let recovery = COPIES
             * (partition.recovered.rows.len() + partition.quantities.rows.len()) as u64
             * (partition.n_interface() as u64 + n_modes);
@@ -184,7 +209,8 @@ impl Forecast {
         }
     }
 
-    fn total(self) -> u64 {
+    /// All of it.
+    pub fn total(self) -> u64 {
         self.matrices.saturating_add(self.factors).saturating_add(self.vectors)
     }
 }

@@ -72,35 +72,57 @@ pub struct Projection {
     pub block_coupling: f64,
     /// The entry it is reached at.
     pub block_coupling_at: (usize, usize),
-    /// max |K̂ − K̂ᵀ| / max |K̂|.
+    /// max |K̂ − K̂ᵀ|_ij / √(s_i s_j) with s the diagonal of K_BB and that of K̂_ηη; without an interface the largest of this (M-25).
     pub stiffness_asymmetry: f64,
-    /// max |M̂ − M̂ᵀ| / max |M̂|.
+    /// max |M̂ − M̂ᵀ|_ij / √(M̂_ii M̂_jj) (M-25).
     pub mass_asymmetry: f64,
 }
 
 impl Reduction {
     /// Projects the partition's matrices on the basis.
-    pub fn new(partition: &Partition, basis: &Basis, rigid: &RigidBodyModes) -> Self {
-        let (mut stiffness, mut mass) =
-            rayon::join(|| project(&partition.stiffness, basis), || project(&partition.mass, basis));
+    pub fn new(partition: &Partition, basis: &Basis<'_>, rigid: &RigidBodyModes) -> Self {
+        Self::of(partition, basis, rigid, || project(&partition.mass, basis))
+    }
+
+    /// Projects the stiffness; M̂ is zero, because nothing asked depends on it.
+    pub fn of_statics(partition: &Partition, basis: &Basis<'_>, rigid: &RigidBodyModes) -> Self {
+        let r = basis.n_reduced();
+        Self::of(partition, basis, rigid, || Mat::zeros(r, r))
+    }
+
+    fn of(
+        partition: &Partition,
+        basis: &Basis<'_>,
+        rigid: &RigidBodyModes,
+        reduced_mass: impl FnOnce() -> Mat<f64> + Send,
+    ) -> Self {
+        let (mut stiffness, mut mass) = rayon::join(|| project_stiffness(partition, basis), reduced_mass);
         let n_b = partition.n_interface();
         // K̂Û = 0 with a regular Û: the component is rigid as far as its coordinates go, and what was projected is rounding.
         let deforms = if rigid.count() == basis.n_reduced() { Deforms::Nowhere } else { Deforms::Somewhere };
         let rounding = (deforms == Deforms::Nowhere).then(|| clear_all(&mut stiffness, partition, basis));
         let mut measured = Projection {
-            stiffness_asymmetry: dense::symmetrise(&mut stiffness),
-            mass_asymmetry: dense::symmetrise(&mut mass),
+            stiffness_asymmetry: asymmetry(stiffness.as_ref(), &stiffness_sizes(&stiffness, partition)),
+            mass_asymmetry: asymmetry(mass.as_ref(), &dense::diagonal(mass.as_ref())),
             ..Projection::default()
         };
+        for matrix in [&mut stiffness, &mut mass] {
+            dense::symmetrise(matrix);
+        }
         let cleared = stiffness.as_ref().get(0..n_b, n_b..).to_owned();
         (measured.block_coupling, measured.block_coupling_at) = match (n_b, rounding) {
             (_, Some(rounding)) => rounding,
             (0, None) => clear_rigid_body(&mut stiffness, rigid.count()),
+            // Rigid-body modes that are columns of their own are coupled to the interface: K̂_B = −A_B⁻¹ U_B.
+            (_, None) if basis.rigid_amplitudes().is_some() => (0.0, (0, 0)),
             (_, None) => uncouple(&mut stiffness, partition),
         };
         let r = basis.n_reduced();
         let u_b = rigid.modes.as_ref().subrows(partition.n_internal, n_b);
         let mut rigid_body_modes = Mat::from_fn(r, rigid.count(), |i, j| if i < n_b { u_b[(i, j)] } else { 0.0 });
+        if let Some(amplitudes) = basis.rigid_amplitudes().filter(|_| n_b > 0) {
+            rigid_body_modes.as_mut().subrows_mut(n_b, r - n_b).copy_from(amplitudes);
+        }
         if n_b == 0 {
             // The rigid-body modes are among the columns of Ψ_D, which is M-orthonormal: η = Ψ_DᵀMU.
             let momenta = product(&partition.mass, rigid.modes.as_ref());
@@ -128,9 +150,9 @@ impl Reduction {
     ///
     /// # Errors
     /// The errors of [`ModalMass::new`].
-    pub fn with_mass_of(mut self, job: &ReductionJob, basis: &Basis, retained: &Retained) -> Result<Self> {
+    pub fn with_mass_of(mut self, job: &ReductionJob, basis: &Basis<'_>, retained: &Retained) -> Result<Self> {
         if job.method.mass() == MassOf::RetainedModes {
-            let modes = basis.reduced_modes(&retained.modes, basis.constraint_modes.nrows());
+            let modes = basis.reduced_modes(&retained.modes, basis.constraint_modes.n_internal());
             (self.mass, self.modal_mass) = ModalMass::new(self.mass, &self.rigid_body_modes, modes)?;
         }
         Ok(self)
@@ -185,8 +207,24 @@ impl Reduction {
     }
 }
 
+/// ΨᵀKΨ; of interface dofs what is known of it where the constraint modes are not stored.
+fn project_stiffness(partition: &Partition, basis: &Basis<'_>) -> Mat<f64> {
+    let Some(known) = basis.constraint_modes.stiffness() else { return project(&partition.stiffness, basis) };
+    let (n_b, r) = (known.nrows(), basis.n_reduced());
+    let mut projected = Mat::zeros(r, r);
+    projected.as_mut().submatrix_mut(0, 0, n_b, n_b).copy_from(known);
+    for columns in panels(basis.n_dynamic()).map(|columns| n_b + columns.start..n_b + columns.end) {
+        let image = product(&partition.stiffness, panel_of(basis, columns.clone()).as_ref());
+        let column = transpose_apply(basis, image.as_ref());
+        projected.as_mut().get_mut(.., columns.clone()).copy_from(&column);
+        let mirrored = column.as_ref().subrows(0, n_b).transpose().to_owned();
+        projected.as_mut().get_mut(columns, ..n_b).copy_from(mirrored);
+    }
+    projected
+}
+
 /// ΨᵀAΨ, panel by panel.
-fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
+fn project(matrix: &SparseMatrix, basis: &Basis<'_>) -> Mat<f64> {
     let r = basis.n_reduced();
     let mut projected = Mat::zeros(r, r);
     for columns in panels(r) {
@@ -197,7 +235,7 @@ fn project(matrix: &SparseMatrix, basis: &Basis) -> Mat<f64> {
 }
 
 /// ΨᵀAΨ of a further matrix. What rounding leaves of its symmetry goes; a matrix that has none is left as it is.
-fn project_further(further: &CarriedMatrix, basis: &Basis, deforms: Deforms) -> Mat<f64> {
+fn project_further(further: &CarriedMatrix, basis: &Basis<'_>, deforms: Deforms) -> Mat<f64> {
     let mut projected = project(&further.matrix, basis);
     if deforms == Deforms::Nowhere && further.facts.kind == MatrixKind::Damping {
         clear_rounding(&mut projected, further, panel_of(basis, 0..basis.n_reduced()).as_ref());
@@ -234,29 +272,29 @@ enum Deforms {
 }
 
 /// Some columns of Ψ, n' × k.
-pub(crate) fn panel_of(basis: &Basis, columns: Range<usize>) -> Mat<f64> {
-    let (n_i, n_b) = (basis.constraint_modes.nrows(), basis.constraint_modes.ncols());
+pub(crate) fn panel_of(basis: &Basis<'_>, columns: Range<usize>) -> Mat<f64> {
+    let (n_i, n_b) = (basis.constraint_modes.n_internal(), basis.constraint_modes.n_interface());
     let mut panel = Mat::zeros(n_i + n_b, columns.len());
-    for (j, psi) in columns.enumerate() {
-        let column = dense::column_mut(panel.as_mut(), j);
-        let source = if psi < n_b {
-            column[n_i + psi] = 1.0;
-            dense::column(basis.constraint_modes.as_ref(), psi)
-        } else {
-            dense::column(basis.dynamic_modes.as_ref(), psi - n_b)
-        };
-        column[..n_i].copy_from_slice(source);
+    let n_static = columns.end.min(n_b).saturating_sub(columns.start);
+    if n_static > 0 {
+        let statics = basis.constraint_modes.columns(columns.start..columns.start + n_static);
+        panel.as_mut().subrows_mut(0, n_i).subcols_mut(0, n_static).copy_from(statics);
+        (0..n_static).for_each(|j| panel[(n_i + columns.start + j, j)] = 1.0);
+    }
+    if n_static < columns.len() {
+        let dynamics = basis.dynamic_modes.as_ref().get(.., columns.start + n_static - n_b..columns.end - n_b);
+        panel.as_mut().subrows_mut(0, n_i).subcols_mut(n_static, columns.len() - n_static).copy_from(dynamics);
     }
     panel
 }
 
 /// Ψᵀ F, r × k.
-pub(crate) fn transpose_apply(basis: &Basis, forces: MatRef<'_, f64>) -> Mat<f64> {
-    let (n_i, n_b) = (basis.constraint_modes.nrows(), basis.constraint_modes.ncols());
+pub(crate) fn transpose_apply(basis: &Basis<'_>, forces: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (basis.constraint_modes.n_internal(), basis.constraint_modes.n_interface());
     let (internal, interface) = (forces.subrows(0, n_i), forces.subrows(n_i, n_b));
     let mut reduced = Mat::zeros(basis.n_reduced(), forces.ncols());
     let mut top = reduced.as_mut().subrows_mut(0, n_b);
-    top.copy_from(dense::gram(basis.constraint_modes.as_ref(), internal));
+    top.copy_from(basis.constraint_modes.gather(internal));
     top += interface;
     reduced.as_mut().subrows_mut(n_b, basis.n_dynamic()).copy_from(dense::gram(basis.dynamic_modes.as_ref(), internal));
     reduced
@@ -275,7 +313,7 @@ fn clear_rigid_body(stiffness: &mut Mat<f64>, n_rigid: usize) -> Worst {
 
 /// Sets K̂ of a rigid component to zero and says how large it was, relative to what it is the rounding of: the diagonal of K_BB,
 /// or without an interface the terms |Ψ|ᵀ|K||Ψ| of its rigid-body modes.
-fn clear_all(stiffness: &mut Mat<f64>, partition: &Partition, basis: &Basis) -> Worst {
+fn clear_all(stiffness: &mut Mat<f64>, partition: &Partition, basis: &Basis<'_>) -> Worst {
     let r = stiffness.nrows();
     let sizes: Vec<f64> = match partition.n_interface() {
         0 => absolute_energy(&partition.stiffness, basis.dynamic_modes.as_ref()),
@@ -290,6 +328,29 @@ fn uncouple(stiffness: &mut Mat<f64>, partition: &Partition) -> Worst {
     let (n_b, r) = (partition.n_interface(), stiffness.nrows());
     let diagonal: Vec<f64> = (0..r).map(|j| stiffness[(j, j)]).collect();
     clear(stiffness, [0..n_b, n_b..r], |i, j| (uncondensed(partition, i) * diagonal[j]).abs().sqrt())
+}
+
+/// What the entries of K̂ are compared with in each row, whatever the units of the interface: K_BB,ii, and K̂_jj of modes. A mode by which
+/// nothing deforms has none of its own.
+fn stiffness_sizes(stiffness: &Mat<f64>, partition: &Partition) -> Vec<f64> {
+    let n_b = partition.n_interface();
+    let diagonal = dense::diagonal(stiffness.as_ref());
+    let largest = diagonal.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let of_mode = |j: usize| if n_b == 0 { largest } else { diagonal[j] };
+    (0..diagonal.len()).map(|i| if i < n_b { uncondensed(partition, i) } else { of_mode(i) }).collect()
+}
+
+/// max |A − Aᵀ|_ij / √(s_i s_j).
+fn asymmetry(a: MatRef<'_, f64>, sizes: &[f64]) -> f64 {
+    let mut worst = 0.0;
+    for j in 0..a.ncols() {
+        for i in 0..j {
+            let size = (sizes[i] * sizes[j]).abs().sqrt();
+            let value = if size > 0.0 { (a[(i, j)] - a[(j, i)]).abs() / size } else { 0.0 };
+            worst = if dense::worse(value, worst) { value } else { worst };
+        }
+    }
+    worst
 }
 
 /// An entry of the diagonal of K_BB.

@@ -22,7 +22,9 @@ use crate::dense::{self, unpacked};
 use crate::error::{Error, Result};
 use crate::job::ReductionJob;
 use crate::modes::Retained;
+use crate::plan::{Mass, Plan};
 use crate::reduction::Reduction;
+use crate::rigid::InterfaceRank;
 
 /// Steps that take rigid-body motion out of the static modes: each leaves rounding of what the one before it left.
 const REFINEMENTS: usize = 2;
@@ -48,7 +50,7 @@ pub struct Herting {
 
 impl Herting {
     /// Of a reduction whose basis has inertia relief for every rigid-body motion, in scaled units.
-    fn of_reduction(basis: &Basis, reduction: &Reduction, retained: &Retained) -> Self {
+    fn of_reduction(basis: &Basis<'_>, reduction: &Reduction, retained: &Retained) -> Self {
         let n_r = reduction.rigid_body_modes.ncols();
         Self {
             stiffness: reduction.stiffness.clone(),
@@ -57,8 +59,8 @@ impl Herting {
             rigid_body_mass: reduction.rigid_body_mass.clone(),
             // A relief mode that others span has its parts in those.
             relief: basis.mixing.as_ref().subcols(0, n_r).to_owned(),
-            modes: basis.reduced_modes(&retained.modes, basis.constraint_modes.nrows()),
-            n_interface: basis.constraint_modes.ncols(),
+            modes: basis.reduced_modes(&retained.modes, basis.constraint_modes.n_internal()),
+            n_interface: basis.constraint_modes.n_interface(),
         }
     }
 
@@ -82,7 +84,8 @@ impl Herting {
             use Coordinate::{ElasticMode, InertiaRelief, ResidualVector};
             matches!(c, InertiaRelief { .. } | ElasticMode { .. } | ResidualVector { .. })
         };
-        let is_singular = superelement.metadata().flags.contains(&Flag::SingularMass);
+        let has_whole_mass = |flag: &Flag| !matches!(flag, Flag::SingularMass | Flag::StiffnessOnly);
+        let is_singular = !superelement.metadata().flags.iter().all(has_whole_mass);
         if is_singular || n_b == 0 || !coordinates.iter().all(is_free) {
             return None;
         }
@@ -134,6 +137,19 @@ pub struct Rubin {
     pub rigid_body_mass: Mat<f64>,
 }
 
+/// The rank of the interface; none where it leaves rigid-body motions free and the method of the job is Rubin's, whose static modes do
+/// without: the answers of the free component to loads stand in the place of constraint modes.
+///
+/// # Errors
+/// Any error of the rank for another method, and where the scene does not ask for a mass: without one there is no inertia that balances a load.
+pub fn rank_or_attachment(rank: Result<InterfaceRank>, plan: &Plan) -> Result<Option<InterfaceRank>> {
+    let has_attachment_modes = plan.job().reduction.method.has_attachment_modes() && plan.mass() == Mass::Reduced;
+    match rank {
+        Err(Error::InterfaceRank { .. }) if has_attachment_modes => Ok(None),
+        rank => rank.map(Some),
+    }
+}
+
 /// Rubin's form where the method of the job is Rubin's; none in a component without interface, which has its modes themselves, and none
 /// without an interior, where there is nothing to attach.
 ///
@@ -141,12 +157,14 @@ pub struct Rubin {
 /// What [`Rubin::new`] refuses.
 pub fn rubin_where_asked(
     job: &ReductionJob,
-    basis: &Basis,
+    basis: &Basis<'_>,
     reduction: &Reduction,
     retained: &Retained,
 ) -> Result<Option<Rubin>> {
-    let (n_internal, n_interface) = basis.constraint_modes.shape();
-    let is_asked = job.method.has_attachment_modes() && n_interface > 0 && n_internal > 0;
+    let (n_internal, n_interface) = (basis.constraint_modes.n_internal(), basis.constraint_modes.n_interface());
+    // Where rigid-body modes are columns the basis is Rubin's own.
+    let is_own = basis.rigid_amplitudes().is_some();
+    let is_asked = job.method.has_attachment_modes() && n_interface > 0 && n_internal > 0 && !is_own;
     is_asked.then(|| Rubin::new(Herting::of_reduction(basis, reduction, retained))).transpose()
 }
 
@@ -176,14 +194,41 @@ impl Rubin {
         let x_b = dynamics.as_ref().subrows(0, n_b).to_owned();
         dense::add_product(dynamics.as_mut(), -1.0, statics.as_ref(), x_b.as_ref());
         let columns = dense::side_by_side(statics.as_ref(), dynamics.as_ref());
-        let projected = |a: &Mat<f64>| {
-            let images = dense::product(a.as_ref(), columns.as_ref());
-            let mut projected = dense::gram(columns.as_ref(), images.as_ref());
-            dense::symmetrise(&mut projected);
-            projected
-        };
-        let (columns_stiffness, columns_mass) = (projected(&k), projected(&m));
+        let (columns_stiffness, columns_mass) = (projected(&k, &columns), projected(&m, &columns));
         Ok(Self { relief: z, columns, motions: u, columns_stiffness, columns_mass, rigid_body_mass })
+    }
+
+    /// Rubin's form of a superelement, in its units; none where [`Herting::of_file`] has none. A file whose rigid-body modes are
+    /// coordinates beside an interface has Rubin's columns already, which need no relief: Z_B = 0.
+    ///
+    /// # Errors
+    /// What [`Rubin::new`] refuses.
+    pub fn of_file(superelement: &Superelement) -> Result<Option<Self>> {
+        let (n_b, tensors) = (superelement.n_interface(), superelement.tensors());
+        if !superelement.has_rigid_amplitudes() {
+            return Herting::of_file(superelement).map(Self::new).transpose();
+        }
+        let coordinates = &superelement.metadata().coordinates[n_b..];
+        let n_eta = coordinates.len();
+        let named = match &tensors.mixing {
+            Some(mixing) => dense::inverse(unpacked(mixing).as_ref()),
+            None => Mat::identity(n_eta, n_eta),
+        };
+        let modes: Vec<usize> = (0..n_eta).filter(|slot| coordinates[*slot].mode().is_some()).collect();
+        let modes = dense::columns(named.as_ref(), &modes);
+        let columns = faer::concat![
+            [Mat::<f64>::identity(n_b, n_b), Mat::<f64>::zeros(n_b, modes.ncols())],
+            [Mat::<f64>::zeros(n_eta, n_b), modes]
+        ];
+        let motions = unpacked(&tensors.rigid_body_modes);
+        Ok(Some(Self {
+            relief: Mat::zeros(motions.ncols(), n_b),
+            columns_stiffness: projected(&unpacked(&tensors.stiffness), &columns),
+            columns_mass: projected(&unpacked(&tensors.mass), &columns),
+            columns,
+            motions,
+            rigid_body_mass: unpacked(&tensors.rigid_body_mass),
+        }))
     }
 
     /// n_B.
@@ -234,6 +279,14 @@ impl Rubin {
         let n_b = self.n_interface();
         Mat::from_fn(self.columns.ncols(), self.n_rigid(), |i, j| if i < n_b { self.motions[(i, j)] } else { 0.0 })
     }
+}
+
+/// ΨᵀAΨ of columns Ψ.
+fn projected(a: &Mat<f64>, columns: &Mat<f64>) -> Mat<f64> {
+    let images = dense::product(a.as_ref(), columns.as_ref());
+    let mut projected = dense::gram(columns.as_ref(), images.as_ref());
+    dense::symmetrise(&mut projected);
+    projected
 }
 
 /// [A, −AU; −UᵀA, UᵀAU + A_F].

@@ -22,7 +22,7 @@ struct Ended {
 fn supel_with(reduce: Reduce, args: &[&str]) -> Ended {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
-    let code = run(args, Pipeline { reduce, verify: supel::verify }, &mut Terminal::plain(&mut out, &mut err));
+    let code = run(args, Pipeline { reduce, ..supel::PIPELINE }, &mut Terminal::plain(&mut out, &mut err));
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     Ended { code, out: text(out), err: text(err) }
 }

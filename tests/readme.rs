@@ -10,6 +10,7 @@ use supel::job::Job;
 
 const README: &str = include_str!("../README.md");
 const JOB: &str = include_str!("../docs/job.md");
+const FORMATS: &str = include_str!("../docs/formats.md");
 
 /// The fenced blocks of a page: language with its marks, and content.
 fn blocks(page: &'static str) -> Vec<(&'static str, &'static str)> {
@@ -28,10 +29,10 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A folder with the bundled example and the comparison with peers, as a copy of the repository has them.
+/// A folder with the bundled examples and the comparison with peers, as a copy of the repository has them.
 fn workplace() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("folder");
-    for part in ["examples/bracket", "benches/peers"] {
+    for part in ["examples/bracket", "examples/beam", "benches/peers"] {
         let copy = folder.path().join(part);
         std::fs::create_dir_all(&copy).expect("folder");
         for entry in std::fs::read_dir(root().join(part)).expect("a folder of the repository") {
@@ -66,11 +67,23 @@ fn assert_is_job(text: &str) {
 }
 
 fn run(folder: &Path, program: &str, args: &[&str]) {
-    let ended = Command::new(program).args(args).current_dir(folder).env("PATH", search_path()).output();
+    let mut command = Command::new(program);
+    command.args(args).current_dir(folder).env("PATH", search_path()).env("XDG_CACHE_HOME", folder);
+    let ended = command.output();
     let ended = ended.unwrap_or_else(|error| panic!("{program}: {error}"));
     let (out, err) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
     assert!(ended.status.success(), "{}\n{out}\n{err}", args.join(" "));
     assert!(!out.contains("False"), "{out}");
+}
+
+#[test]
+fn every_conversion_of_the_page_of_formats_runs() {
+    let folder = workplace();
+    let commands: Vec<&str> =
+        blocks(FORMATS).into_iter().filter(|(mark, _)| *mark == "sh run").map(|block| block.1).collect();
+    assert_eq!(commands.len(), 1);
+    commands.iter().for_each(|content| run(folder.path(), "bash", &["-euo", "pipefail", "-c", content]));
+    assert!(folder.path().join("K.mtx").exists());
 }
 
 #[test]
@@ -98,7 +111,7 @@ fn every_command_of_the_readme_runs() {
         }
         n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
     }
-    assert_eq!(n_run, 12, "blocks that are run");
+    assert_eq!(n_run, 17, "blocks that are run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
     let named = [
@@ -110,6 +123,7 @@ fn every_command_of_the_readme_runs() {
         "displacements.csv",
         "small.op4",
         "again.again.supel",
+        "beam.supel",
     ];
     for name in named {
         assert!(folder.path().join(name).exists(), "{name} was not written");
@@ -165,6 +179,8 @@ fn files_that_the_readme_names_exist() {
         "docs/errors.md",
         "docs/what-verify-sees.md",
         "docs/assemblies.md",
+        "docs/certify.md",
+        "docs/doctor.md",
         "schemas/modes.schema.json",
         "benches/README.md",
         "benches/results/B-brick.svg",

@@ -121,24 +121,38 @@ pub fn grounded(model: &Model, row: usize, stiffness: f64) -> Model {
     Model { stiffness: sum.finish(), ..model.clone() }
 }
 
-/// RᵀKR and RᵀMR with a turn of 90° about z at some nodes, counted from 0, of a model of three dofs a node: ux takes the place of uy, uy that of −ux.
+/// The model with the rows of some nodes, counted from 0, along axes turned by 90° about z: ux takes the place of uy, uy that of −ux.
 pub fn turned(model: &Model, is_turned: impl Fn(usize) -> bool) -> Model {
-    let node_of = |row: u32| (model.dofs[row as usize].0 - 1) as usize;
-    let image = |row: u32| match (is_turned(node_of(row)), row % 3) {
-        (true, 0) => (row + 1, -1.0),
-        (true, 1) => (row - 1, 1.0),
-        _ => (row, 1.0),
-    };
+    const QUARTER: [[f64; 3]; 3] = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    in_local_frames(model, &QUARTER, |label| is_turned((label - 1) as usize))
+}
+
+/// TKTᵀ and TMTᵀ: the rows of some nodes, displacements and rotations, along the axes that are the rows of `frame`.
+///
+/// # Panics
+/// If such a node has some directions only, and the frame mixes them with others.
+pub fn in_local_frames(model: &Model, frame: &[[f64; 3]; 3], is_turned: impl Fn(i64) -> bool) -> Model {
+    let row_of: BTreeMap<(i64, u8), u32> = model.dofs.iter().copied().zip(0..).collect();
+    // The column of T that belongs to a row.
+    let shares: Vec<Vec<(u32, f64)>> = (0u32..)
+        .zip(&model.dofs)
+        .map(|(row, &(label, direction))| match is_turned(label) {
+            false => vec![(row, 1.0)],
+            true => {
+                let (first, axis) = (direction - direction % 3, usize::from(direction % 3));
+                let along = (0u8..).zip(frame).map(|(local, axes)| (first + local, axes[axis]));
+                along.filter(|part| part.1 != 0.0).map(|(local, share)| (row_of[&(label, local)], share)).collect()
+            }
+        })
+        .collect();
     let of = |entries: &[Entry]| {
-        let mut turned: Vec<Entry> = entries
-            .iter()
-            .map(|&(row, col, value)| {
-                let ((row, of_row), (col, of_col)) = (image(row), image(col));
-                (row, col, value * of_row * of_col)
-            })
-            .collect();
-        turned.sort_unstable_by_key(|&(row, col, _)| (row, col));
-        turned
+        let mut sum = Assembler::default();
+        for &(row, col, value) in entries {
+            for (to, share) in &shares[row as usize] {
+                shares[col as usize].iter().for_each(|(across, other)| sum.add(*to, *across, share * other * value));
+            }
+        }
+        sum.finish()
     };
     Model { stiffness: of(&model.stiffness), mass: of(&model.mass), ..model.clone() }
 }

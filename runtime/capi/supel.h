@@ -34,6 +34,9 @@
 // The stiffness is the tangent of a preloaded state. No component is made of such a file.
 #define SUPEL_PRELOADED 2
 
+// A bit of `supel_flags`: the superelement was made for statics alone and has no mass; no component can be made of it.
+#define SUPEL_STIFFNESS_ONLY 4
+
 // What a call says.
 typedef enum SupelStatus {
   // Done.

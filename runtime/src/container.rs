@@ -52,7 +52,7 @@ impl Dtype {
 /// Every tensor a superelement can have, in the order of the file.
 ///
 /// `recovery` comes last: in single precision it would leave what follows unaligned.
-pub(crate) const TENSORS: [&str; 16] = [
+pub(crate) const TENSORS: [&str; 18] = [
     "damping",
     "frequencies",
     "gravity",
@@ -64,6 +64,8 @@ pub(crate) const TENSORS: [&str; 16] = [
     "mixing",
     "quantities",
     "recovery_dofs",
+    "recovery_face_offsets",
+    "recovery_faces",
     "recovery_positions",
     "rigid_body_mass",
     "rigid_body_modes",

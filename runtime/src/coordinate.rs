@@ -25,7 +25,8 @@ pub enum Coordinate {
         /// Row of the model's matrices, from 0.
         row: u64,
     },
-    /// Amplitude of a rigid-body mode, in a component without interface.
+    /// Amplitude of a rigid-body mode: of the motion itself in a component without interface; beside an interface that leaves some
+    /// rigid-body motion free, of what Rubin's static modes leave of it.
     RigidBodyMode {
         /// Number of the rigid-body mode, from 0.
         index: usize,

@@ -7,6 +7,7 @@ use crate::container::{Dtype, RawTensor, TENSORS, TensorToWrite};
 use crate::direction::Direction;
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
+use crate::recovered_faces::RecoveredFaces;
 use crate::tensors::{Precision, RecoveredDof, Recovery, Tensors};
 
 /// The tensors that are there, in the order of the file.
@@ -21,7 +22,10 @@ fn encode_one(tensors: &Tensors, name: &'static str) -> Option<TensorToWrite> {
     };
     let matrix = |matrix: &Matrix| doubles(vec![matrix.rows(), matrix.cols()], matrix.as_slice());
     let nodes = tensors.interface_positions.len();
+    // A superelement of the stiffness alone has neither of the two.
+    let has_mass = tensors.mass.rows() > 0;
     Some(match name {
+        "mass" | "rigid_body_mass" if !has_mass => return None,
         "stiffness" => matrix(&tensors.stiffness),
         "mass" => matrix(&tensors.mass),
         "rigid_body_modes" => matrix(&tensors.rigid_body_modes),
@@ -44,6 +48,8 @@ fn encode_one(tensors: &Tensors, name: &'static str) -> Option<TensorToWrite> {
             let positions = tensors.recovery.as_ref()?.positions()?;
             doubles(vec![positions.len(), 3], positions.as_flattened())
         }
+        "recovery_faces" => integers(name, tensors.recovery.as_ref()?.faces()?.nodes().iter().copied()),
+        "recovery_face_offsets" => integers(name, tensors.recovery.as_ref()?.faces()?.offsets()),
         "recovery" => match tensors.recovery.as_ref()? {
             Recovery { rows, precision: Precision::Double, .. } => matrix(rows),
             Recovery { rows, precision: Precision::Single, .. } => singles(rows),
@@ -57,6 +63,12 @@ fn singles(rows: &Matrix) -> TensorToWrite {
     TensorToWrite { name: "recovery", dtype: Dtype::F32, shape: vec![rows.rows(), rows.cols()], bytes }
 }
 
+fn integers(name: &'static str, values: impl Iterator<Item = usize>) -> TensorToWrite {
+    let values: Vec<i64> = values.map(|value| value as i64).collect();
+    let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    TensorToWrite { name, dtype: Dtype::I64, shape: vec![values.len()], bytes }
+}
+
 fn recovered_dofs(recovery: &Recovery) -> TensorToWrite {
     let pairs = recovery.dofs().iter().flat_map(|dof| [dof.node, dof.direction as i64]);
     let bytes = pairs.flat_map(i64::to_le_bytes).collect();
@@ -68,11 +80,16 @@ pub(crate) type RawTensors<'a> = BTreeMap<&'static str, RawTensor<'a>>;
 
 /// The tensors of a file, each of its own type and number of dimensions; whether they fit each other is checked later.
 pub(crate) fn decode(raw: &RawTensors) -> Result<Tensors> {
+    let has_mass = find(raw, "mass").is_some();
+    let of_mass = |name| match has_mass {
+        true => matrix(require(raw, name)?),
+        false => Ok(Matrix::default()),
+    };
     Ok(Tensors {
         stiffness: matrix(require(raw, "stiffness")?)?,
-        mass: matrix(require(raw, "mass")?)?,
+        mass: of_mass("mass")?,
         rigid_body_modes: matrix(require(raw, "rigid_body_modes")?)?,
-        rigid_body_mass: matrix(require(raw, "rigid_body_mass")?)?,
+        rigid_body_mass: of_mass("rigid_body_mass")?,
         interface_positions: positions(require(raw, "interface_positions")?)?,
         interface_frames: frames(require(raw, "interface_frames")?)?,
         frequencies: vector(require(raw, "frequencies")?)?,
@@ -149,9 +166,11 @@ fn frames(tensor: Named) -> Result<Vec<[[f64; 3]; 3]>> {
 
 fn recovery(raw: &RawTensors) -> Result<Option<Recovery>> {
     let places = find(raw, "recovery_positions");
+    let faces = [find(raw, "recovery_faces"), find(raw, "recovery_face_offsets")];
+    let belongs = places.is_some() || faces.iter().any(Option::is_some);
     let (rows, dofs) = match (find(raw, "recovery"), find(raw, "recovery_dofs")) {
         (Some(rows), Some(dofs)) => (rows, dofs),
-        (None, None) if places.is_some() => return Err(FileError::RecoveryIncomplete { missing: "recovery" }),
+        (None, None) if belongs => return Err(FileError::RecoveryIncomplete { missing: "recovery" }),
         (None, None) => return Ok(None),
         (None, Some(_)) => return Err(FileError::RecoveryIncomplete { missing: "recovery" }),
         (Some(_), None) => {
@@ -172,21 +191,44 @@ fn recovery(raw: &RawTensors) -> Result<Option<Recovery>> {
             return Err(FileError::WrongDtype { tensor: "recovery", found, expected: "F64 or F32" });
         }
     };
-    match places {
-        Some(places) => recovery.with_positions(positions(places)?).map(Some),
-        None => Ok(Some(recovery)),
+    let recovery = match places {
+        Some(places) => recovery.with_positions(positions(places)?)?,
+        None => recovery,
+    };
+    with_faces(recovery, faces).map(Some)
+}
+
+/// A recovery with the faces of the file: nodes, and offsets.
+fn with_faces(recovery: Recovery, faces: [Option<Named>; 2]) -> Result<Recovery> {
+    let (nodes, offsets) = match faces {
+        [Some(nodes), Some(offsets)] => (read_integers(nodes)?, read_integers(offsets)?),
+        [None, None] => return Ok(recovery),
+        [None, _] => return Err(FileError::RecoveryIncomplete { missing: "recovery_faces" }),
+        [_, None] => return Err(FileError::RecoveryIncomplete { missing: "recovery_face_offsets" }),
+    };
+    let positions = recovery.positions().ok_or(FileError::RecoveryIncomplete { missing: "recovery_positions" })?;
+    let faces = RecoveredFaces::from_file(&nodes, &offsets, positions.len())?;
+    recovery.with_faces(faces)
+}
+
+fn read_integers((name, tensor): Named) -> Result<Vec<i64>> {
+    let [_] = shape((name, tensor))?;
+    integers_of((name, tensor))
+}
+
+fn integers_of((name, tensor): Named) -> Result<Vec<i64>> {
+    match tensor.dtype {
+        Dtype::I64 => Ok(tensor.bytes.as_chunks().0.iter().map(|&bytes| i64::from_le_bytes(bytes)).collect()),
+        other => Err(FileError::WrongDtype { tensor: name, found: other.name(), expected: "I64" }),
     }
 }
 
 fn read_recovered_dofs((name, tensor): Named) -> Result<Vec<RecoveredDof>> {
     let [n_rows, two] = shape((name, tensor))?;
-    if tensor.dtype != Dtype::I64 {
-        return Err(FileError::WrongDtype { tensor: name, found: tensor.dtype.name(), expected: "I64" });
-    }
+    let numbers = integers_of((name, tensor))?;
     if two != 2 {
         return Err(FileError::WrongShape { tensor: name, found: vec![n_rows, two], expected: vec![n_rows, 2] });
     }
-    let numbers = tensor.bytes.as_chunks().0.iter().map(|&bytes| i64::from_le_bytes(bytes)).collect::<Vec<_>>();
     let pairs = numbers.as_chunks().0.iter().enumerate();
     pairs
         .map(|(row, &[node, direction])| {

@@ -385,6 +385,9 @@ pub enum FileError {
         /// Angular frequency.
         omega: f64,
     },
+    /// The direction along which gravity may act is infinite or not a number.
+    #[error("`validity.gravity` is infinite or not a number, expected a direction, or zero for none")]
+    GravityDirection,
     /// A dof that is declared unloaded does not belong to the interface.
     #[error("`validity.unloaded` names {direction:?} of interface node {node} (from 0), which has no such dof")]
     UnloadedDof {
@@ -447,8 +450,11 @@ pub enum FileError {
         /// Lower entry.
         lower: f64,
     },
-    /// Only one of `recovery` and `recovery_dofs` is there, or positions without them.
-    #[error("`recovery` and `recovery_dofs` belong together, and `recovery_positions` to both; `{missing}` is missing")]
+    /// Only one of `recovery` and `recovery_dofs` is there, or positions or faces without what they belong to.
+    #[error(
+        "`recovery` and `recovery_dofs` belong together, `recovery_positions` to both, and `recovery_faces` with \
+         `recovery_face_offsets` to all; `{missing}` is missing"
+    )]
     RecoveryIncomplete {
         /// The absent one.
         missing: &'static str,
@@ -460,6 +466,20 @@ pub enum FileError {
         row: usize,
         /// Direction found.
         direction: i64,
+    },
+    /// A face between recovered nodes is none.
+    #[error("face {face} (from 0) of `recovery_faces` has {found}")]
+    RecoveryFace {
+        /// Number of the face.
+        face: usize,
+        /// What is wrong with it.
+        found: String,
+    },
+    /// The offsets of faces do not begin at zero or do not end with the last of the nodes.
+    #[error("`recovery_face_offsets` has to begin with 0 and to end with {n_ids}, the length of `recovery_faces`")]
+    RecoveryFaceOffsets {
+        /// Length of `recovery_faces`.
+        n_ids: usize,
     },
     /// The overall verdict is better than that of a check.
     #[error("the verdict of the verification is better than that of its check {check}")]

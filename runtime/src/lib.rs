@@ -32,11 +32,17 @@
 //! | `recovery`, `recovery_dofs` | rows × r, rows × 2 | optional: basis rows, and the node label and direction (0 to 5) of each |
 //! | `quantities` | m × r | optional: rows R Ψ of quantities that follow from displacements |
 //! | `recovery_positions` | nodes × 3 | optional, with those: where the recovered nodes are, in the order of their first rows |
+//! | `recovery_faces`, `recovery_face_offsets` | ids, faces + 1 | optional, with those: the surface between recovered nodes, see below |
 //!
-//! all of them 64-bit floating point, except `recovery_dofs` (64-bit integers) and `recovery`, which may be 32-bit
-//! where it is applied to the deformation only. No other tensor may occur. The reduced coordinates are displacements and
+//! all of them 64-bit floating point, except `recovery_dofs` and the two of the faces (64-bit integers) and `recovery`, which may be
+//! 32-bit where it is applied to the deformation only. No other tensor may occur. The reduced coordinates are displacements and
 //! rotations of the interface nodes in the inertial frame, node by node, each node with any subset of ux, uy, uz, rx,
 //! ry, rz; then interface rows of models that have no nodes; then the modal amplitudes. Units are those of the model.
+//!
+//! Face f of the mesh has the nodes `recovery_faces[recovery_face_offsets[f]..recovery_face_offsets[f + 1]]`, numbers from 0 of rows of
+//! `recovery_positions`: three or four corners along the border, counterclockwise as seen from outside the cell of the mesh that the face
+//! belongs to; behind them the nodes in the middles of the edges, if the mesh has some, from that between the first two corners on; and the
+//! node in the middle. So 3, 6 and 7 nodes are a triangle, 4, 8 and 9 a quadrilateral.
 //!
 //! The text under `supel` is a JSON document that follows `schemas/superelement.schema.json`: `format_version` (`"1"`),
 //! `blake3`, and the fields of [`Metadata`]: generator, method, what every coordinate is, what was dropped and why, the
@@ -143,6 +149,7 @@ mod mass_properties;
 mod matrix;
 mod metadata;
 pub mod motion;
+mod recovered_faces;
 mod strict_json;
 mod superelement;
 mod tensors;
@@ -164,5 +171,6 @@ pub use metadata::{
     CheckSummary, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS, MassProperties, Metadata,
     Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
 };
+pub use recovered_faces::RecoveredFaces;
 pub use superelement::Superelement;
 pub use tensors::{Precision, RecoveredDof, Recovery, Tensors};

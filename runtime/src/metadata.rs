@@ -148,6 +148,33 @@ pub struct Validity {
     /// none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unloaded: Vec<InterfaceDof>,
+    /// Along what alone gravity may act on the component, in axes of the model: a direction of any length, or zero where it may not act at all.
+    /// Absent from the file where it may act along anything.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<[f64; 3]>,
+}
+
+impl Validity {
+    /// Sine of the angle up to which gravity acts along a direction: what the answer lacks of the deflection is as small a share of it.
+    const ALONG: f64 = 0.01;
+
+    /// Whether gravity may act as this acceleration in axes of the model.
+    pub fn allows_gravity(&self, g: [f64; 3]) -> bool {
+        let Some(along) = self.gravity else { return true };
+        let cross = |a: [f64; 3], b: [f64; 3]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        // Vectors of any length: their largest entry is one before they are multiplied.
+        let scaled = |vector: [f64; 3]| {
+            let largest = vector.into_iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+            vector.map(|entry| if largest > 0.0 { entry / largest } else { entry })
+        };
+        let square = |vector: [f64; 3]| vector.into_iter().map(|entry| entry * entry).sum::<f64>();
+        let (along, g) = (scaled(along), scaled(g));
+        // Without a direction nothing is along it.
+        square(g) == 0.0
+            || square(along) > 0.0 && square(cross(along, g)) <= Self::ALONG * Self::ALONG * square(along) * square(g)
+    }
 }
 
 /// A degree of freedom of an interface node.
@@ -170,6 +197,8 @@ pub enum Flag {
     /// The stiffness is the tangent of a preloaded state: it lets translations pass and answers rotations with the forces of the preload
     /// that turn, so that the component may not turn far.
     Preloaded,
+    /// The superelement was made for statics alone: it has neither a mass matrix nor modes, and cannot be used where anything accelerates.
+    StiffnessOnly,
 }
 
 /// The model that was reduced.

@@ -1,5 +1,6 @@
 //! The superelement: a component reduced to its interface and a few modal amplitudes.
 
+use crate::coordinate::Coordinate;
 use crate::error::Result;
 use crate::further_matrix::NamedMatrix;
 use crate::matrix::Matrix;
@@ -55,6 +56,13 @@ impl Superelement {
     /// Number of modal amplitudes n_η, which come last.
     pub fn n_modal(&self) -> usize {
         self.n_coordinates() - self.n_interface()
+    }
+
+    /// Whether rigid-body modes are coordinates beside those of an interface, which leaves some of their motions free: modal amplitudes
+    /// then move with a rigid-body motion.
+    pub fn has_rigid_amplitudes(&self) -> bool {
+        let mut named = self.metadata.named_columns();
+        self.n_interface() > 0 && named.any(|coordinate| matches!(coordinate, Coordinate::RigidBodyMode { .. }))
     }
 
     /// Number of rigid-body modes n_r.

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::direction::Direction;
 use crate::error::{FileError, Result};
 use crate::matrix::Matrix;
+use crate::recovered_faces::RecoveredFaces;
 
 /// The numbers of a superelement, under the names they have in the file.
 ///
@@ -24,11 +25,12 @@ use crate::matrix::Matrix;
 pub struct Tensors {
     /// Reduced stiffness matrix K̂, r × r, symmetric to the bit.
     pub stiffness: Matrix,
-    /// Reduced mass matrix M̂, r × r, symmetric to the bit.
+    /// Reduced mass matrix M̂, r × r, symmetric to the bit; empty, 0 × 0, and absent from the file where the flags say that it has the
+    /// stiffness only.
     pub mass: Matrix,
     /// Rigid-body modes in the reduced coordinates Û, r × n_r; n_r is 6 for each free component, 0 for a fixed one.
     pub rigid_body_modes: Matrix,
-    /// Rigid-body mass M_F = UᵀMU of the full model, n_r × n_r.
+    /// Rigid-body mass M_F = UᵀMU of the full model, n_r × n_r; empty and absent where the mass is.
     pub rigid_body_mass: Matrix,
     /// Positions of the k interface nodes in the reference configuration, k × 3.
     pub interface_positions: Vec<[f64; 3]>,
@@ -63,6 +65,7 @@ pub struct Recovery {
     pub(crate) dofs: Vec<RecoveredDof>,
     pub(crate) precision: Precision,
     pub(crate) positions: Option<Vec<[f64; 3]>>,
+    pub(crate) faces: Option<RecoveredFaces>,
 }
 
 /// What one recovered row is.
@@ -102,7 +105,7 @@ impl Recovery {
             Precision::Double => rows,
             Precision::Single => Matrix::from_fn(rows.rows(), rows.cols(), |i, j| f64::from(rows[(i, j)] as f32)),
         };
-        Ok(Self { rows, dofs, precision, positions: None })
+        Ok(Self { rows, dofs, precision, positions: None, faces: None })
     }
 
     /// These rows with the positions of their nodes in the reference configuration, in the order of [`Recovery::labels`].
@@ -119,6 +122,18 @@ impl Recovery {
         Ok(Self { positions: Some(positions), ..self })
     }
 
+    /// These rows with the faces of the mesh all of whose nodes are recovered.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::RecoveryIncomplete`] without positions, [`FileError::RecoveryFace`] where a face has a node that is not recovered.
+    pub fn with_faces(self, faces: RecoveredFaces) -> Result<Self> {
+        let positions = self.positions.as_ref();
+        let n_nodes = positions.ok_or(FileError::RecoveryIncomplete { missing: "recovery_positions" })?.len();
+        RecoveredFaces::new(faces.iter(), n_nodes)?;
+        Ok(Self { faces: Some(faces), ..self })
+    }
+
     /// Labels of the nodes, each once, in the order of their first rows.
     pub fn labels(&self) -> Vec<i64> {
         let mut known = BTreeSet::new();
@@ -128,6 +143,11 @@ impl Recovery {
     /// Positions of the nodes in the order of [`Recovery::labels`], where the model has coordinates.
     pub fn positions(&self) -> Option<&[[f64; 3]]> {
         self.positions.as_deref()
+    }
+
+    /// Faces of the mesh between the nodes, where it has some.
+    pub fn faces(&self) -> Option<&RecoveredFaces> {
+        self.faces.as_ref()
     }
 
     /// The rows, n × r.

@@ -9,7 +9,7 @@ use crate::document::is_digest;
 use crate::error::{FileError, Result};
 use crate::further_matrix::Symmetry;
 use crate::matrix::Matrix;
-use crate::metadata::{InterfaceDof, Metadata};
+use crate::metadata::{Flag, InterfaceDof, Metadata};
 use crate::tensors::Tensors;
 
 /// How far RᵀR of an interface frame may be from the identity; a rotation from twelve printed digits passes.
@@ -65,9 +65,14 @@ fn check_shapes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     let r = metadata.coordinates.len();
     let n_eta = metadata.coordinates.iter().filter(|coordinate| !coordinate.is_interface()).count();
     let n_rigid = tensors.rigid_body_modes.cols();
+    let is_stiffness_only = metadata.flags.contains(&Flag::StiffnessOnly);
+    if !is_stiffness_only && tensors.mass.rows() == 0 && r > 0 {
+        return Err(FileError::MissingTensor { tensor: "mass" });
+    }
     for (tensor, matrix) in matrices(tensors) {
         let found = (matrix.rows(), matrix.cols());
         let expected = match tensor {
+            "mass" | "rigid_body_mass" | "gravity" | "damping" if is_stiffness_only => (0, 0),
             "rigid_body_modes" => (r, n_rigid),
             "rigid_body_mass" => (n_rigid, n_rigid),
             "mixing" => (n_eta, n_eta),
@@ -229,8 +234,11 @@ fn is_rotation(frame: &[[f64; 3]; 3]) -> bool {
     unit && orthogonal && dot(&cross, c) > 0.0
 }
 
-/// Whatever is declared unloaded must be there.
+/// Whatever is declared unloaded must be there, and a direction of gravity be one.
 fn check_validity(metadata: &Metadata) -> Result<()> {
+    if metadata.validity.gravity.is_some_and(|along| along.iter().any(|entry| !entry.is_finite())) {
+        return Err(FileError::GravityDirection);
+    }
     let nodes = &metadata.interface_nodes;
     let is_there = |dof: &&InterfaceDof| nodes.get(dof.node).is_some_and(|node| node.dofs.contains(&dof.direction));
     match metadata.validity.unloaded.iter().find(|dof| !is_there(dof)) {
@@ -276,6 +284,9 @@ fn check_modes_held(metadata: &Metadata) -> Result<()> {
 
 fn check_modes(tensors: &Tensors, metadata: &Metadata) -> Result<()> {
     let frequencies = &tensors.frequencies;
+    if metadata.flags.contains(&Flag::StiffnessOnly) && !frequencies.is_empty() {
+        return Err(FileError::WrongShape { tensor: "frequencies", found: vec![frequencies.len()], expected: vec![0] });
+    }
     let mut last = 0.0;
     for (mode, &omega) in frequencies.iter().enumerate() {
         if omega < last {

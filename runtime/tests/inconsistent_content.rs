@@ -304,6 +304,13 @@ fn unloaded_dof_that_is_not_there() {
 }
 
 #[test]
+fn direction_of_gravity_that_is_none() {
+    for along in [[f64::NAN, 0.0, 0.0], [0.0, f64::INFINITY, 0.0]] {
+        assert_refused!(refusal(|_, metadata| metadata.validity.gravity = Some(along)), FileError::GravityDirection);
+    }
+}
+
+#[test]
 fn verdict_better_than_a_check() {
     let error = refusal(|_, metadata| metadata.verification.verdict = Verdict::Pass);
     assert_refused!(error, FileError::Verdict { check } if check == "M-12");

@@ -433,6 +433,107 @@ fn recovery_without_its_dofs() {
     assert_refused!(error, FileError::RecoveryIncomplete { missing: "recovery" });
 }
 
+/// Adds a tensor of 64-bit numbers behind the others.
+fn add(parts: &mut Parts, name: &str, (dtype, shape): (&str, Value), numbers: &[[u8; 8]]) {
+    // In single precision the recovery leaves what follows unaligned.
+    remove(parts, "recovery");
+    let end = parts.data.len();
+    let rows = vec![0_u8; 8 * 27];
+    let entry = json!({ "dtype": "F64", "shape": [3, 9], "data_offsets": [end, end + rows.len()] });
+    parts.entries.insert("recovery".into(), entry);
+    parts.data.extend(rows);
+    let begin = parts.data.len();
+    parts.data.extend(numbers.as_flattened());
+    let entry = json!({ "dtype": dtype, "shape": shape, "data_offsets": [begin, parts.data.len()] });
+    parts.entries.insert(name.into(), entry);
+}
+
+fn add_integers(parts: &mut Parts, name: &str, numbers: &[i64]) {
+    add(
+        parts,
+        name,
+        ("I64", json!([numbers.len()])),
+        &numbers.iter().map(|number| number.to_le_bytes()).collect::<Vec<_>>(),
+    );
+}
+
+fn add_position(parts: &mut Parts) {
+    add(parts, "recovery_positions", ("F64", json!([1, 3])), &[[0; 8]; 3]);
+}
+
+/// A good file with one recovered node and these faces.
+fn with_faces(nodes: &[i64], offsets: &[i64]) -> FileError {
+    refusal(|parts| {
+        add_position(parts);
+        add_integers(parts, "recovery_faces", nodes);
+        add_integers(parts, "recovery_face_offsets", offsets);
+    })
+}
+
+#[test]
+fn faces_without_what_they_belong_to() {
+    let missing = |change: &dyn Fn(&mut Parts)| match refusal(change) {
+        FileError::RecoveryIncomplete { missing } => missing,
+        other => panic!("{other}"),
+    };
+    let nodes = |parts: &mut Parts| add_integers(parts, "recovery_faces", &[]);
+    let offsets = |parts: &mut Parts| add_integers(parts, "recovery_face_offsets", &[0]);
+    let both = |parts: &mut Parts| {
+        nodes(parts);
+        offsets(parts);
+    };
+    assert_eq!(missing(&both), "recovery_positions");
+    assert_eq!(missing(&nodes), "recovery_face_offsets");
+    assert_eq!(missing(&offsets), "recovery_faces");
+    let alone = |parts: &mut Parts| {
+        both(parts);
+        remove(parts, "recovery");
+        remove(parts, "recovery_dofs");
+    };
+    assert_eq!(missing(&alone), "recovery");
+}
+
+#[test]
+fn faces_that_are_none() {
+    for (nodes, offsets, face, said) in [
+        (vec![0, 0], vec![0, 2], 0, "2 nodes"),
+        (vec![0; 5], vec![0, 5], 0, "5 nodes"),
+        (vec![0; 10], vec![0, 10], 0, "10 nodes"),
+        (vec![0, 1, 2], vec![0, 3], 0, "node 1; expected 0 to 0"),
+        (vec![0, -1, 2], vec![0, 3], 0, "node"),
+        (vec![0, 0, 0], vec![0, 3], 0, "node 0 twice"),
+        (vec![0, 0, 0], vec![0, 5, 3], 0, "offsets 0 and 5"),
+        (vec![0, 0, 0], vec![0, -1, 3], 0, "offsets 0 and -1"),
+        (vec![0, 0, 0], vec![0, i64::MAX, 3], 0, "offsets"),
+        (vec![0, 0, 0], vec![0, 0, 3], 0, "0 nodes"),
+    ] {
+        match with_faces(&nodes, &offsets) {
+            FileError::RecoveryFace { face: at, found } => {
+                assert!(at == face && found.contains(said), "face {at} has {found} for {said}");
+            }
+            other => panic!("{other}"),
+        }
+    }
+    for (nodes, offsets) in
+        [(vec![0, 0, 0], vec![0]), (vec![0, 0, 0], vec![3]), (vec![0, 0, 0], vec![1, 3]), (vec![], vec![])]
+    {
+        let error = with_faces(&nodes, &offsets);
+        assert_refused!(error, FileError::RecoveryFaceOffsets { n_ids } if n_ids == nodes.len());
+    }
+    let error = refusal(|parts| {
+        add_position(parts);
+        add(parts, "recovery_faces", ("F64", json!([1])), &[[0; 8]]);
+        add_integers(parts, "recovery_face_offsets", &[0]);
+    });
+    assert_refused!(error, FileError::WrongDtype { tensor: "recovery_faces", .. });
+    let error = refusal(|parts| {
+        add_position(parts);
+        add_integers(parts, "recovery_face_offsets", &[0]);
+        add(parts, "recovery_faces", ("I64", json!([1, 1])), &[[0; 8]]);
+    });
+    assert_refused!(error, FileError::WrongRank { tensor: "recovery_faces", .. });
+}
+
 #[test]
 fn recovered_direction_is_none_of_the_six() {
     for direction in [6_i64, -1, i64::MIN] {

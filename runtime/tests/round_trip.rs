@@ -4,11 +4,41 @@ use supel_models::superelements::particle as sample;
 
 use safetensors::SafeTensors;
 use safetensors::tensor::{Dtype, TensorView};
-use supel_runtime::{Method, Superelement, mass_properties};
+use supel_runtime::{
+    Direction, Matrix, Method, Precision, RecoveredDof, RecoveredFaces, Recovery, Superelement, mass_properties,
+};
 
 fn samples() -> Vec<Superelement> {
     let by_method = [Method::CraigBampton, Method::Herting].map(sample::component);
-    by_method.into_iter().chain([sample::complete(), sample::two_particles()]).collect()
+    by_method.into_iter().chain([sample::complete(), sample::two_particles(), with_faces()]).collect()
+}
+
+/// Five recovered nodes with a triangle and a quadrilateral between them.
+fn with_faces() -> Superelement {
+    let (mut tensors, metadata) = sample::complete_parts();
+    let rows = Matrix::from_fn(5, 9, |i, j| (i * 9 + j) as f64);
+    let dofs = (0..5).map(|node| RecoveredDof { node: 10 - node, direction: Direction::Ux }).collect();
+    let faces: [&[usize]; 2] = [&[4, 0, 1], &[0, 1, 2, 3]];
+    let recovery = Recovery::new(rows, dofs, Precision::Double).unwrap();
+    let recovery = recovery.with_positions((0..5).map(|x| [f64::from(x), 0.0, 1.0]).collect()).unwrap();
+    tensors.recovery = Some(recovery.with_faces(RecoveredFaces::new(faces, 5).unwrap()).unwrap());
+    Superelement::new(tensors, metadata).unwrap()
+}
+
+#[test]
+fn faces_are_lists_of_nodes_and_where_each_begins() {
+    let bytes = with_faces().to_bytes().unwrap().bytes;
+    let read = SafeTensors::deserialize(&bytes).unwrap();
+    let numbers = |name: &str| -> Vec<i64> {
+        let tensor = read.tensor(name).unwrap();
+        assert_eq!((tensor.dtype(), tensor.shape().len()), (Dtype::I64, 1));
+        tensor.data().as_chunks().0.iter().map(|bytes| i64::from_le_bytes(*bytes)).collect()
+    };
+    assert_eq!(numbers("recovery_faces"), [4, 0, 1, 0, 1, 2, 3]);
+    assert_eq!(numbers("recovery_face_offsets"), [0, 3, 7]);
+    let file = Superelement::from_bytes(&bytes).unwrap();
+    let faces = file.tensors().recovery.as_ref().unwrap().faces().unwrap();
+    assert_eq!(faces.iter().collect::<Vec<_>>(), [&[4, 0, 1][..], &[0, 1, 2, 3][..]]);
 }
 
 #[test]

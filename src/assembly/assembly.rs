@@ -286,7 +286,7 @@ impl Assembly {
             let Some(number) = number else { continue };
             rigid.as_mut().row_mut(*number).copy_from(motions.as_ref().row(row));
         }
-        let rigid = dense::orthonormal(rigid.as_ref(), mass.as_ref())?;
+        let rigid = dense::orthonormal(rigid.as_ref(), mass.as_ref());
         Ok(Assembled { pencil: Pencil { stiffness, mass, rigid, rounding }, blocks })
     }
 

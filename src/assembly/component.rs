@@ -37,11 +37,14 @@ impl Component {
     /// A component of an assembly; `name` is what selections call it.
     ///
     /// # Errors
-    /// [`Error::AssemblySingularMass`] where a method left static answers without mass; [`Error::AssemblyIndefinite`] where the mass has a negative eigenvalue, [`Error::AssemblyRigid`] where the rigid-body modes strain it;
+    /// [`Error::AssemblyNoMass`] of a superelement for statics alone; [`Error::AssemblySingularMass`] where a method left static answers without mass; [`Error::AssemblyIndefinite`] where the mass has a negative eigenvalue, [`Error::AssemblyRigid`] where the rigid-body modes strain it;
     /// [`Error::DenseEigen`].
     pub fn new(name: String, superelement: Superelement) -> Result<Self> {
         // Small matrices are decomposed by one thread, so that the order of sums never depends on how many there are.
         faer::set_global_parallelism(faer::Par::Seq);
+        if superelement.metadata().flags.contains(&Flag::StiffnessOnly) {
+            return Err(Error::AssemblyNoMass { name });
+        }
         if superelement.metadata().flags.contains(&Flag::SingularMass) {
             return Err(Error::AssemblySingularMass { name });
         }
@@ -101,7 +104,7 @@ pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 
 /// The largest eigenvalue that rounding made of rigid-body motion, whose energy should be nothing, in any combination of the motions.
 fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<'_, f64>) -> Result<f64> {
-    let motions = dense::orthonormal(rigid, mass)?;
+    let motions = dense::orthonormal(rigid, mass);
     let mut energies = dense::gram(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
     dense::symmetrise(&mut energies);
     let (values, _) = dense::symmetric_eigen(energies.as_ref())?;

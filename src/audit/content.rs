@@ -10,6 +10,7 @@ use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::eigen::{eigenvalue_beyond, elastic_scale, relief_scale};
 use crate::error::Result;
 use crate::job::{Boundary, Job, MassOf, Method};
+use crate::plan::Plan;
 use crate::rigid::n_passing;
 use crate::verification::check::Limits;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
@@ -19,7 +20,7 @@ pub(super) struct Content<'a> {
     pub(super) superelement: &'a Superelement,
     /// K̂, r × r.
     pub(super) k: Mat<f64>,
-    /// M̂, r × r.
+    /// M̂, r × r; the diagonal of K̂ where the file has no mass, so that energies have something to be compared with.
     pub(super) m: Mat<f64>,
     /// Û, r × n_r.
     pub(super) u: Mat<f64>,
@@ -40,8 +41,8 @@ pub(super) struct Content<'a> {
     pub(super) scale: Vec<f64>,
     /// The rank of M̂ of a method that makes it singular: the modes and rigid-body motion.
     pub(super) mass_rank: Option<usize>,
-    /// The job kept in the file, where it is one of this version.
-    pub(super) job: Option<Job>,
+    /// What was done by the job kept in the file, where it is one of this version.
+    pub(super) plan: Option<Plan>,
 }
 
 /// What rounding makes of a file, as the model tells.
@@ -51,6 +52,8 @@ pub(super) struct ModelNoise {
     pub(super) energy: f64,
     /// In a static answer of the interior, as a ratio of lengths in energy.
     pub(super) answers: f64,
+    /// In an inertia, relative to that of the columns.
+    pub(super) inertia: f64,
 }
 
 /// Rounding in an energy, by whose error bars it is known.
@@ -75,8 +78,8 @@ impl<'a> Content<'a> {
     /// The content of a file; without a model that tells the noise of its energies, the file's own error bars have to.
     pub(super) fn of(superelement: &'a Superelement, noise: Option<ModelNoise>) -> Result<Self> {
         let tensors = superelement.tensors();
-        let (k, m) = (unpacked(&tensors.stiffness), unpacked(&tensors.mass));
-        let u = unpacked(&tensors.rigid_body_modes);
+        let (k, u) = (unpacked(&tensors.stiffness), unpacked(&tensors.rigid_body_modes));
+        let m = if has_mass(superelement) { unpacked(&tensors.mass) } else { unit_mass(&k) };
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
         let stated = lambda.iter().copied().find(|lambda| *lambda > 0.0);
         let parts = (k.as_ref(), m.as_ref(), u.as_ref());
@@ -94,13 +97,23 @@ impl<'a> Content<'a> {
             boundary: boundary(superelement),
             noise: noise.map_or_else(|| Noise::OfFile(by_own_bars(superelement, first)), Noise::OfModel),
             mass_rank,
-            job: kept_job(superelement),
+            plan: kept_job(superelement).as_ref().map(Plan::of),
             k,
             m,
             lambda,
             first,
             scale,
         })
+    }
+
+    /// Whether the file has a mass of its own.
+    pub(super) fn has_mass(&self) -> bool {
+        has_mass(self.superelement)
+    }
+
+    /// The job kept in the file as a run does it: without what its scene never asks.
+    pub(super) fn job(&self) -> Option<&Job> {
+        self.plan.as_ref().map(Plan::job)
     }
 
     /// For each interface coordinate whether it was held while the modes were computed.
@@ -127,6 +140,11 @@ impl<'a> Content<'a> {
         n_passing(self.u.as_ref().subrows(0, self.n_b), &self.scale, &rows)
     }
 
+    /// Whether rigid-body modes are coordinates next to those of an interface, which leaves some of them free: the static modes are Rubin's.
+    pub(super) fn is_attached(&self) -> bool {
+        self.superelement.has_rigid_amplitudes()
+    }
+
     /// r.
     pub(super) fn n_reduced(&self) -> usize {
         self.k.nrows()
@@ -134,7 +152,7 @@ impl<'a> Content<'a> {
 
     /// Whether the job kept in the file holds dofs, under which a component of any rigid-body modes has loads of gravity.
     pub(super) fn holds_dofs(&self) -> bool {
-        self.job.as_ref().is_some_and(|job| !job.fixed.is_empty())
+        self.plan.as_ref().is_some_and(Plan::holds_dofs)
     }
 
     /// n_r.
@@ -186,6 +204,16 @@ impl<'a> Content<'a> {
         };
         let Limits { engineering, arithmetic, data } = self.rounding_limits();
         Limits { engineering, arithmetic: arithmetic.max(of_answers.min(LARGEST_EXCUSE)), data }
+    }
+
+    /// Limits of the inertia that unit columns have in common: rounding of its terms, which are large where columns let a heavy mass nearly
+    /// rest. A reduction knows them, and its limit is on record.
+    pub(super) fn inertia_limits(&self) -> Limits {
+        let arithmetic = match self.noise {
+            Noise::OfModel(noise) => NOISE_FACTOR * noise.inertia,
+            Noise::OfFile(_) => self.recorded_limit("M-03"),
+        };
+        Limits { engineering: 1e-10, arithmetic: arithmetic.min(limits::HARMLESS_COUPLING), data: 0.0 }
     }
 
     /// Limits of a force of rigid-body motion in the damping: a reduction knows what the digits of its matrices leave, and its limit is on
@@ -242,6 +270,18 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
     }
 }
 
+/// Whether a file has a mass.
+pub(super) fn has_mass(superelement: &Superelement) -> bool {
+    !superelement.metadata().flags.contains(&Flag::StiffnessOnly)
+}
+
+/// A diagonal mass with which the coordinates of a stiffness have frequencies near one.
+pub(super) fn unit_mass(stiffness: &Mat<f64>) -> Mat<f64> {
+    let largest = stiffness.norm_max();
+    let of = |i: usize| if stiffness[(i, i)] > 0.0 { stiffness[(i, i)] } else { largest.max(f64::MIN_POSITIVE) };
+    Mat::from_fn(stiffness.nrows(), stiffness.ncols(), |i, j| if i == j { of(i) } else { 0.0 })
+}
+
 /// The rank that the mass of a file has by its method, where that is less than r.
 pub(super) fn mass_rank(superelement: &Superelement) -> Option<usize> {
     let method = Method::of_file(superelement.metadata().method)?;
@@ -249,10 +289,10 @@ pub(super) fn mass_rank(superelement: &Superelement) -> Option<usize> {
     (method.mass() == MassOf::RetainedModes && rank < superelement.n_coordinates()).then_some(rank)
 }
 
-/// What a reduction by this job says to clients: of the mass by the method of the file, of the rest by the job.
-pub(super) fn flags(superelement: &Superelement, job: Option<&Job>) -> BTreeSet<Flag> {
+/// What a reduction by this plan says to clients: of the mass by the method of the file, of the rest by the job and its scene.
+pub(super) fn flags(superelement: &Superelement, plan: Option<&Plan>) -> BTreeSet<Flag> {
     let of_mass = mass_rank(superelement).map(|_| Flag::SingularMass);
-    job.map_or_else(BTreeSet::new, Job::flags).into_iter().chain(of_mass).collect()
+    plan.map_or_else(BTreeSet::new, Plan::flags).into_iter().chain(of_mass).collect()
 }
 
 /// The kind of a mode tells where it was computed, whatever the method is called.

@@ -17,7 +17,7 @@ use crate::verification::damping::{Damped, checks};
 /// A dense eigenproblem that does not converge.
 pub(super) fn of_file(content: &Content<'_>) -> Result<Vec<Check>> {
     let Some(stored) = content.superelement.tensors().damping.as_ref().map(unpacked) else { return Ok(Vec::new()) };
-    let job = content.job.as_ref().filter(|job| job.has_damping());
+    let job = content.job().filter(|job| job.has_damping());
     let made = job.map(|job| made(content, job)).transpose()?;
     let known = made.iter().flatten().next();
     let sizes = known.map_or_else(|| dense::absolute(stored.as_ref()), |made| made.sizes.clone());
@@ -30,7 +30,7 @@ pub(super) fn of_file(content: &Content<'_>) -> Result<Vec<Check>> {
         motions: content.u.as_ref(),
         first: content.first,
     };
-    let rigid_motion = content.job.as_ref().map_or(RigidMotionDamping::Refuse, Job::rigid_motion);
+    let rigid_motion = content.job().map_or(RigidMotionDamping::Refuse, Job::rigid_motion);
     let name = |mode: usize, at: usize| format!("rigid-body mode {}, {}", mode + 1, content.name_of(at));
     let mut all = checks(damped, (content.damping_force_limits(), rigid_motion), &name)?;
     all.extend(made.map(|made| sum(content, made.as_ref(), &stored)));

@@ -10,20 +10,20 @@ use super::mass::is_of_a_body;
 use super::record;
 use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
-use crate::job::{Axes, Boundary, Job, Method, ModeOrigin, ModeSelection, NodeSelection};
+use crate::job::{Axes, Boundary, DofUse, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, NodeSelection};
 use crate::partition::{Frame, OF_THE_MODEL, axes_of_job};
+use crate::plan::Plan;
 use crate::verification::check::{Check, Limits};
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
 pub(super) fn agrees(content: &Content<'_>) -> Check {
     let tensors = content.superelement.tensors();
     let mut flaws = Vec::new();
-    if let Some(job) = &content.job {
+    if let Some(job) = content.job() {
         flaws.extend(by_job(content, job).iter().map(ToString::to_string));
     }
     let nodes = content.superelement.metadata().interface_nodes.iter();
-    if nodes.zip(&tensors.interface_frames).any(|(node, frame)| has_other_axes(content.job.as_ref(), &node.name, frame))
-    {
+    if nodes.zip(&tensors.interface_frames).any(|(node, frame)| has_other_axes(content.job(), &node.name, frame)) {
         flaws.push("turned axes of interface nodes".to_owned());
     }
     flaws.extend(applied(content.superelement, made_by_none(content)));
@@ -43,14 +43,18 @@ fn has_other_axes(job: Option<&Job>, interface: &str, found: &Frame) -> bool {
 /// What no reduction by this version makes, and other programs and versions may.
 fn made_by_none(content: &Content<'_>) -> Vec<String> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
-    let assumptions = content.job.as_ref().map_or_else(Vec::new, Job::assumptions);
+    let assumptions = content.plan.as_ref().map_or_else(Vec::new, Plan::assumptions);
     let found = [
-        (content.job.is_none(), "it is no job of the version that wrote it"),
-        (tensors.damping.is_some() && !content.job.as_ref().is_some_and(Job::has_damping), "damping"),
-        (metadata.flags != flags(content.superelement, content.job.as_ref()), "flags"),
+        (content.plan.is_none(), "it is no job of the version that wrote it"),
+        (tensors.damping.is_some() && !content.job().is_some_and(Job::has_damping), "damping"),
+        (metadata.flags != flags(content.superelement, content.plan.as_ref()), "flags"),
         (metadata.validity.assumptions != assumptions, "assumptions about the simulation"),
         (!metadata.validity.unloaded.is_empty(), "unloaded directions"),
-        (!metadata.inputs.contains_key("stiffness") || !metadata.inputs.contains_key("mass"), "no digests"),
+        (metadata.validity.gravity != content.plan.as_ref().and_then(Plan::gravity), "another direction of gravity"),
+        (
+            !metadata.inputs.contains_key("stiffness") || metadata.inputs.contains_key("mass") != content.has_mass(),
+            "no digests",
+        ),
     ];
     found.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()).collect()
 }
@@ -66,16 +70,16 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
     let method = job.reduction.method.in_file();
     expect(metadata.method == method, "another method");
     expect(metadata.units == job.model.units, "other units");
-    let asked: BTreeSet<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
     let found: BTreeSet<&str> = metadata.interface_nodes.iter().map(|node| node.name.as_str()).collect();
-    expect(found.is_empty() || found == asked, "other interfaces");
-    expect(found.is_empty() || labels(content) == labels_asked(job), "other interface nodes");
+    expect(found.is_empty() || content.plan.as_ref().is_some_and(|plan| are_asked(plan, &found)), "other interfaces");
+    expect(found.is_empty() || labels(content) == labels_asked(job, &found), "other interface nodes");
     let is_by_rows = job.interfaces.iter().all(|interface| matches!(interface.nodes, NodeSelection::Rows { .. }));
     expect(
         metadata.interface_nodes.iter().all(|node| !is_patch(job, &node.name) || node.label.is_none()),
         "a labelled patch",
     );
-    expect(!found.is_empty() || !is_by_rows || rows(content) == rows_asked(job), "other interface rows");
+    let asked = || content.plan.as_ref().map_or_else(Vec::new, rows_asked);
+    expect(!found.is_empty() || !is_by_rows || rows(content) == asked(), "other interface rows");
     expect(found.is_empty() || metadata.modes_held == held_asked(content, job), "other dofs held for the modes");
     expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
     expect(metadata.load_names.iter().eq(job.loads.iter().map(|load| &load.name)), "other loads");
@@ -128,15 +132,29 @@ fn labels(content: &Content<'_>) -> Vec<i64> {
             let interface = job.interfaces.iter().find(|interface| interface.name == name);
             interface.is_some_and(|interface| matches!(interface.nodes, NodeSelection::Labels(_)))
         };
-        content.job.as_ref().is_some_and(of)
+        content.job().is_some_and(of)
     };
     let nodes = content.superelement.metadata().interface_nodes.iter();
     nodes.filter(|node| is_listed(&node.name)).filter_map(|node| node.label).collect()
 }
 
-/// Labels that the interfaces list, those of patches left out: a patch is one node without a label.
-fn labels_asked(job: &Job) -> Vec<i64> {
-    let direct = job.interfaces.iter().filter(|interface| !interface.coupling.is_patch());
+/// Whether the interfaces of a file are those of the job: all that the scene says nothing of, carriers, and no others.
+fn are_asked(plan: &Plan, found: &BTreeSet<&str>) -> bool {
+    let (jobs, scene) = (&plan.job().interfaces, plan.statements());
+    let carriers = scene.map_or(&[][..], |scene| &scene.prescribed);
+    let names = jobs.iter().map(|job| job.name.as_str());
+    let whole = names
+        .clone()
+        .filter(|name| scene.is_none_or(|scene| scene.use_of_whole(jobs, name) == Some(DofUse::Connected)));
+    let needed: BTreeSet<&str> = whole.chain(carriers.iter().map(|carrier| carrier.name.as_str())).collect();
+    let allowed: BTreeSet<&str> = needed.iter().copied().chain(names).collect();
+    needed.is_subset(found) && found.is_subset(&allowed)
+}
+
+/// Labels that the interfaces of the file list by the job, those of patches left out: a patch is one node without a label.
+fn labels_asked(job: &Job, found: &BTreeSet<&str>) -> Vec<i64> {
+    let is_there = |interface: &&InterfaceJob| found.contains(interface.name.as_str());
+    let direct = job.interfaces.iter().filter(|interface| !interface.coupling.is_patch()).filter(is_there);
     let listed = direct.filter_map(|interface| match &interface.nodes {
         NodeSelection::Labels(labels) => Some(labels.clone()),
         _ => None,
@@ -154,12 +172,16 @@ fn rows(content: &Content<'_>) -> Vec<u64> {
     coordinates.filter_map(of).collect()
 }
 
-fn rows_asked(job: &Job) -> Vec<u64> {
+fn rows_asked(plan: &Plan) -> Vec<u64> {
+    let (job, scene) = (plan.job(), plan.statements());
+    let is_kept =
+        |name: &str| scene.is_none_or(|scene| scene.use_of(&job.interfaces, (name, None)) == DofUse::Connected);
     let of = |nodes: &NodeSelection| match nodes {
         NodeSelection::Rows { rows } => rows.iter().map(|row| *row as u64).collect(),
         _ => Vec::new(),
     };
-    job.interfaces.iter().flat_map(|interface| of(&interface.nodes)).collect()
+    let kept = job.interfaces.iter().filter(|interface| is_kept(&interface.name));
+    kept.flat_map(|interface| of(&interface.nodes)).collect()
 }
 
 /// The band that a reduction states: as far as the job asks for modes, or as far as there are.
@@ -178,7 +200,7 @@ pub(super) fn n_modes(content: &Content<'_>) -> Option<Check> {
     /// A mode on the edge of a band belongs to it.
     const EDGE: f64 = 1e-6;
     let stated = content.superelement.tensors().frequencies.as_slice();
-    let (value, words) = match content.job.as_ref()?.reduction.wanted() {
+    let (value, words) = match content.job()?.reduction.wanted() {
         ModeSelection::Count { count } => {
             let n_without = match content.boundary {
                 Boundary::FixedInterface => content.n_b,
@@ -291,15 +313,18 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
     let asks = |job: &Job| -> Vec<usize> {
         (0..job.loads.len()).filter(|load| job.loads[*load].residual && !is_modal).collect()
     };
-    expect(content.job.as_ref().is_none_or(|job| residual == asks(job)), "residual vectors");
+    expect(content.job().is_none_or(|job| residual == asks(job)), "residual vectors");
     let all = |is_there: bool| if is_there { (0..n_r).collect() } else { Vec::new() };
     // Where it is no part of the method, a job may still ask for it.
-    let is_relieved = match &content.job {
-        Some(job) => job.reduction.has_inertia_relief(),
-        None => method.has_inertia_relief() || !relief.is_empty(),
+    let relieved = match &content.plan {
+        _ if is_modal => Vec::new(),
+        Some(plan) => plan.relief().motions(n_r, metadata.model.rigid_body_modes),
+        None => all(method.has_inertia_relief() || !relief.is_empty()),
     };
-    expect(relief == all(is_relieved && !is_modal), "inertia relief");
-    expect(rigid == all(is_modal), "rigid-body coordinates");
+    let is_attached = content.is_attached() && method.has_attachment_modes();
+    let relieved = if is_attached { Vec::new() } else { relieved };
+    expect(relief == relieved, "inertia relief");
+    expect(rigid == all(is_modal || is_attached), "rigid-body coordinates");
     // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
     let is_told = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || n_r > 6 || is_nearly_unit(content);
     expect(tensors.gravity.is_none() || is_told || content.holds_dofs(), "rigid-body modes said to be algebraic");
@@ -319,7 +344,7 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
             metadata.model.mass_properties.is_some() != (is_classical && is_of_a_body(content.m_f.as_ref())),
             "gravity without mass properties, or these without it",
         ),
-        (tensors.gravity.is_none() && is_geometric, "no gravity"),
+        (tensors.gravity.is_none() && is_geometric && content.has_mass(), "no gravity"),
     ];
     found.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| (*what).to_owned()).collect()
 }

@@ -133,7 +133,7 @@ pub(super) fn stated(content: &Content<'_>) -> Option<Check> {
 
 /// M-16: the mass properties that the job kept in the file expects.
 pub(super) fn expected(content: &Content<'_>) -> Option<Check> {
-    let expect = content.job.as_ref()?.model.expect.as_ref()?;
+    let expect = content.job()?.model.expect.as_ref()?;
     let found = properties(content)?;
     let mass = expect.mass.map_or(0.0, |known| (found.mass / known - 1.0).abs());
     let shift = expect.cg.map_or(0.0, |known| distance(found.center_of_mass, known) / gyration(&found));

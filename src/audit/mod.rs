@@ -8,6 +8,7 @@
 //! A file holds some facts more than once, and they have to agree: K̂ and M̂ give the frequencies, M̂ and Û the mass and the loads of gravity, the positions of
 //! the interface nodes the rigid-body modes. The identifiers are those of the report.
 
+mod attached;
 mod content;
 mod damping;
 mod flaw;
@@ -41,7 +42,7 @@ pub use model::{Reference, reduction_of};
 pub use notes::Unvouched;
 pub use record::rewritten;
 pub use reproduction::reproduced;
-pub(crate) use spectrum::negative_mass;
+pub(crate) use spectrum::{condition_of, negative_mass};
 pub use version::{is_of_this_version, kept_job};
 
 /// The result of an audit.
@@ -108,29 +109,11 @@ pub fn against(superelement: &Superelement, reference: &Reference<'_>) -> Result
 }
 
 fn checked(content: &Content<'_>) -> Result<Audit> {
-    let spectrum = spectrum::Spectrum::of(content)?;
     let mut audit = Audit::default();
-    audit.checks.push(spectrum::modal_masses(content)?);
-    audit.checks.extend(rigid_motion::positions(content));
-    audit.checks.push(rigid_motion::null_space(content));
-    audit.checks.push(rigid_motion::energy(content, &spectrum));
-    audit.checks.push(rigid_motion::zero_modes(content)?);
-    audit.checks.push(spectrum::block_coupling(content));
-    audit.checks.push(spectrum::frequencies(content, &spectrum));
-    audit.checks.extend(named_modes::mixing(content));
-    audit.checks.extend(named_modes::residual(content));
-    audit.checks.extend(mass::rigid_body_mass(content));
-    audit.checks.extend(mass::of_a_body(content));
-    audit.checks.extend(mass::stated(content));
-    audit.checks.extend(mass::expected(content));
-    audit.checks.extend(mass::gravity(content));
-    audit.checks.extend(inertia_relief::identity(content));
-    audit.checks.extend(residual_vectors::identity(content));
-    audit.checks.push(spectrum::condition(content)?);
-    audit.checks.push(spectrum::symmetry(content));
-    audit.checks.push(spectrum::definiteness(content, &spectrum));
-    audit.checks.extend(recovery::rigid_motion(content));
-    audit.checks.extend(damping::of_file(content)?);
+    match content.has_mass() {
+        true => audit.checks.extend(of_pencil(content)?),
+        false => audit.checks.extend(of_stiffness(content)?),
+    }
     audit.checks.extend(rigid_motion::declaration(content));
     audit.checks.push(kept_job::accounts(content));
     audit.checks.push(record::verdicts(content));
@@ -139,4 +122,47 @@ fn checked(content: &Content<'_>) -> Result<Audit> {
     audit.checks.push(kept_job::other_version(content));
     audit.notes = notes::notes(content);
     Ok(audit.sorted())
+}
+
+/// The checks of K̂ where it is all there is.
+fn of_stiffness(content: &Content<'_>) -> Result<Vec<Check>> {
+    let spectrum = spectrum::Spectrum::of(content)?;
+    let mut checks: Vec<Check> = rigid_motion::positions(content).into_iter().collect();
+    checks.push(rigid_motion::null_space(content));
+    checks.push(rigid_motion::zero_modes(content)?);
+    checks.push(spectrum::block_coupling(content));
+    checks.push(spectrum::symmetry(content));
+    checks.push(spectrum::definiteness(content, &spectrum));
+    checks.extend(recovery::rigid_motion(content));
+    Ok(checks)
+}
+
+/// The checks of K̂ and M̂ together.
+fn of_pencil(content: &Content<'_>) -> Result<Vec<Check>> {
+    let spectrum = spectrum::Spectrum::of(content)?;
+    let mut checks = vec![spectrum::modal_masses(content)?];
+    checks.extend(rigid_motion::positions(content));
+    checks.push(rigid_motion::null_space(content));
+    checks.push(rigid_motion::energy(content, &spectrum));
+    checks.push(rigid_motion::zero_modes(content)?);
+    match content.is_attached() {
+        true => checks.extend(attached::checks(content)?),
+        false => checks.push(spectrum::block_coupling(content)),
+    }
+    checks.push(spectrum::frequencies(content, &spectrum));
+    checks.extend(named_modes::mixing(content));
+    checks.extend(named_modes::residual(content));
+    checks.extend(mass::rigid_body_mass(content));
+    checks.extend(mass::of_a_body(content));
+    checks.extend(mass::stated(content));
+    checks.extend(mass::expected(content));
+    checks.extend(mass::gravity(content));
+    checks.extend(inertia_relief::identity(content));
+    checks.extend((!content.is_attached()).then(|| residual_vectors::identity(content)).flatten());
+    checks.push(spectrum::condition(content)?);
+    checks.push(spectrum::symmetry(content));
+    checks.push(spectrum::definiteness(content, &spectrum));
+    checks.extend(recovery::rigid_motion(content));
+    checks.extend(damping::of_file(content)?);
+    Ok(checks)
 }

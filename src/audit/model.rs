@@ -12,6 +12,7 @@
 
 mod alignment;
 mod asked;
+mod attached;
 mod bars;
 mod bilinear;
 mod columns;
@@ -34,24 +35,28 @@ use super::Audit;
 use super::content::{ModelNoise, mass_rank};
 use super::spectrum::condition_of;
 use crate::dense;
-use crate::error::Result;
+use crate::eigen::Factored;
+use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky};
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job, MassOf};
 use crate::partition::Partition;
+use crate::plan::Plan;
 use crate::reduction::Reduction;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
+use crate::rubin::rank_or_attachment;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::energy_noise;
 use crate::verification::{self, Evidence};
 
 use alignment::{Combination, Freedom, combination};
 use asked::AskedModes;
+use attached::FreeAnswers;
 use columns::{Columns, Motions};
 use comparison::Comparison;
 use full::Full;
 use interior::Interior;
-use motions::KnownMotions;
+use motions::{KnownMotions, Sight};
 use projection::{Massive, Projected};
 use scaled::Scaled;
 
@@ -67,7 +72,7 @@ pub fn reduction_of(superelement: &Superelement, evidence: &Evidence<'_>) -> Opt
 
 /// What a superelement of a job has to be, computed without a superelement.
 pub struct Reference<'a> {
-    job: &'a Job,
+    plan: &'a Plan,
     facts: &'a InputFacts,
     partition: &'a Partition,
     motions: KnownMotions,
@@ -84,12 +89,13 @@ impl<'a> Reference<'a> {
     ///
     /// # Errors
     /// K − σM is not definite; an eigensolver fails; a Sturm count falls on an eigenvalue.
-    pub fn new(job: &'a Job, facts: &'a InputFacts, partition: &'a Partition) -> Result<Self> {
+    pub fn new(plan: &'a Plan, facts: &'a InputFacts, partition: &'a Partition) -> Result<Self> {
+        let job = plan.job();
         let (given, _) = rigid::rigid_body_modes(partition)?;
         let analysis = Analysis::new(partition.pencil())?;
-        let found = Free::new(job, partition, (&analysis, &given))?;
+        let found = Free::new(plan, partition, (&analysis, &given))?;
         drop(analysis);
-        let Free { zero, motions, asked, first } = found;
+        let Free { zero, motions, asked, first, answers } = found;
         let unit = given.is_classical.then(|| given.modes.as_ref());
         let (asked, columns) = match asked {
             Some(asked) if partition.n_interface() == 0 && zero.count() > 0 => {
@@ -97,14 +103,20 @@ impl<'a> Reference<'a> {
                 (asked, columns)
             }
             asked => {
-                let (relieved, source) = match motions.has_unit() {
-                    _ if !job.reduction.has_inertia_relief() => {
-                        (given.modes.as_ref().subcols(0, 0), RigidSource::Geometric)
-                    }
+                let (all, source) = match motions.has_unit() {
                     true => (given.modes.as_ref(), RigidSource::Geometric),
                     false => (zero.orthonormal.as_ref(), RigidSource::Algebraic),
                 };
-                with_interior(job, partition, (asked, Motions { carried: &given, relieved, source }), first)?
+                let whole = Motions { carried: &given, relieved: all, numbers: &[], source };
+                match (asked, answers) {
+                    (Some(asked), Some(answers)) => with_attachment(partition, (asked, &answers), whole)?,
+                    (asked, _) => {
+                        let numbers = plan.relief().motions(all.ncols(), given.in_file(partition));
+                        let relieved = dense::columns(all, &numbers);
+                        let motions = Motions { relieved: relieved.as_ref(), numbers: &numbers, ..whole };
+                        with_interior(job, partition, (asked, motions), first)?
+                    }
+                }
             }
         };
         let massive =
@@ -122,12 +134,16 @@ impl<'a> Reference<'a> {
             });
         let projected = Projected::new(partition, columns, (unit, zero.count()), massive);
         let noise = energy_noise((partition, &given), asked.known(), first);
-        Ok(Self { job, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise })
+        Ok(Self { plan, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise })
     }
 
     /// What rounding and the digits of the data make of a file of this reference.
     pub(super) fn noise(&self) -> ModelNoise {
-        ModelNoise { energy: self.noise, answers: self.projected.error_of_answers() }
+        ModelNoise {
+            energy: self.noise,
+            answers: self.projected.error_of_answers(),
+            inertia: self.projected.rounding_of_inertia(),
+        }
     }
 
     /// Compares a superelement with this reference.
@@ -160,9 +176,9 @@ impl<'a> Reference<'a> {
         let mut audit = Audit::default();
         let checks = &mut audit.checks;
         checks.push(identity::digests(superelement, self.facts));
-        checks.extend(identity::jobs(superelement, self.job)?);
+        checks.extend(identity::jobs(superelement, self.plan.given())?);
         checks.push(identity::interface(superelement, self.partition));
-        checks.push(identity::statements(superelement, (self.partition, self.job), &self.motions));
+        checks.push(identity::statements(superelement, (self.partition, self.plan), &self.motions));
         audit.notes.extend(self.asked.note());
         let checks = &mut audit.checks;
         checks.push(self.asked.backward_error());
@@ -185,7 +201,7 @@ impl<'a> Reference<'a> {
     fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
         let mut checks: Vec<Check> = verification::of_held_body(self.partition).into_iter().collect();
         let has_properties = superelement.metadata().model.mass_properties.is_some();
-        if let Some(expect) = self.job.model.expect.as_ref().filter(|_| !has_properties) {
+        if let Some(expect) = self.plan.job().model.expect.as_ref().filter(|_| !has_properties) {
             let lacks = verification::not_comparable(expect, self.partition);
             checks.extend(verification::expected_by_weight(expect, self.partition));
             checks.extend(verification::comparable(&lacks));
@@ -197,6 +213,14 @@ impl<'a> Reference<'a> {
     fn matrices(&self, superelement: &Superelement, file: &Scaled, audit: &mut Audit) -> Result<()> {
         let projected = &self.projected;
         let b = match identity::places(superelement, projected, self.asked.boundary) {
+            Some(_) if self.motions.sight == Sight::Part && !self.motions.has_unit() => {
+                audit.notes.push(
+                    "its rigid-body modes are any of the matrices, which the interface does not tell apart: of its matrices only the \
+                     interface was compared"
+                        .to_owned(),
+                );
+                Combination::of_interface(projected)
+            }
             Some(kept) => {
                 let is_modal = file.n_b == 0 && self.motions.n_zero > 0;
                 let relief = (!self.motions.has_unit() && file.n_b > 0).then(|| self.motions.combination(file).0);
@@ -229,7 +253,7 @@ impl<'a> Reference<'a> {
         Check {
             id: "M-10",
             name: "static loads on the full model were solved",
-            equation: "max ‖f − K_II x‖ / ‖f‖ in the norm of (K_II − σM_II)⁻¹, by conjugate gradients",
+            equation: "max ‖f − K_II x‖ / ‖f‖, of a free component ‖f − Kx‖ / ‖f‖, by conjugate gradients",
             value: self.projected.residual,
             limits,
             fail_above: limits.value().max(1e-6),
@@ -245,11 +269,14 @@ struct Free {
     /// The modes asked for, where they are those of the free interface.
     asked: Option<AskedModes>,
     first: f64,
+    /// Answers to loads, where the interface leaves rigid-body motions free and the method does without constraint modes.
+    answers: Option<FreeAnswers>,
 }
 
 impl Free {
     /// The factor is gone before the count takes place for its own.
-    fn new(job: &Job, partition: &Partition, (analysis, given): (&Analysis, &RigidBodyModes)) -> Result<Self> {
+    fn new(plan: &Plan, partition: &Partition, (analysis, given): (&Analysis, &RigidBodyModes)) -> Result<Self> {
+        let job = plan.job();
         let full = Full::new(partition, analysis, given)?;
         let is_modal = partition.n_interface() == 0 && full.zero.count() > 0;
         let of_method = partition.boundary(job.reduction.method.boundary());
@@ -261,7 +288,12 @@ impl Free {
             }
             Boundary::FixedInterface | Boundary::MixedInterface => None,
         };
-        let motions = KnownMotions::of(&full, given);
+        let rank = rank_or_attachment(rigid::interface_rank(partition, given), plan);
+        let is_attached = !is_modal && matches!(rank, Ok(None));
+        let mut motions = KnownMotions::of(&full, given);
+        motions.sight = if is_attached { Sight::Part } else { Sight::Whole };
+        let operator = Factored::new(&full.factor, full.sigma);
+        let answers = is_attached.then(|| FreeAnswers::of(partition, &operator, deflated(given, &full.zero)));
         let mixed = match boundary {
             Boundary::MixedInterface => Some(mixed(&full, deflated(given, &full.zero), job)?),
             Boundary::FreeInterface | Boundary::FixedInterface => None,
@@ -269,7 +301,7 @@ impl Free {
         let Full { zero, first, factor, .. } = full;
         drop(factor);
         let asked = asked.map(|asked| asked.counted(partition, analysis, first)).transpose()?;
-        Ok(Self { zero, motions, asked: asked.or(mixed), first })
+        Ok(Self { zero, motions, asked: asked.or(mixed), first, answers })
     }
 }
 
@@ -289,6 +321,17 @@ fn mixed(full: &Full<'_>, rigid: &RigidBodyModes, job: &Job) -> Result<AskedMode
 /// The motions that elastic modes are orthogonal to: those of the coordinates, where they are all.
 fn deflated<'a>(given: &'a RigidBodyModes, zero: &'a RigidBodyModes) -> &'a RigidBodyModes {
     if given.count() == zero.count() { given } else { zero }
+}
+
+/// Columns of a component whose interface leaves rigid-body motions free.
+fn with_attachment(
+    partition: &Partition,
+    (asked, answers): (AskedModes, &FreeAnswers),
+    motions: Motions<'_>,
+) -> Result<(AskedModes, Columns)> {
+    let columns = Columns::attached(partition, answers, motions, (&asked, columns::probes(partition)));
+    let refused = || Error::AttachmentCondition { condition: f64::INFINITY, error: f64::EPSILON };
+    Ok((asked, columns.ok_or_else(refused)?))
 }
 
 /// Columns that take a factor of the interior, and the modes of the held interface where those are asked for.

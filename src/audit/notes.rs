@@ -9,7 +9,7 @@ use super::content::Content;
 pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
     let metadata = content.superelement.metadata();
     let mut notes = Vec::new();
-    if content.job.is_none() {
+    if content.plan.is_none() {
         notes.push("the job kept in the file is none of this version; what it expects was not compared".to_owned());
     }
     if metadata.model.rigid_body_modes == RigidBodyModes::Algebraic && content.n_rigid() > 0 {
@@ -37,7 +37,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 31] = [
+const ALONE: [Unvouched; 33] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -83,6 +83,8 @@ const ALONE: [Unvouched; 31] = [
     unvouched("quantities", "names, units and rows of a recovery matrix that is not at hand"),
     unvouched("matrices", "matrices of a model that is not at hand"),
     unvouched("damping", "with its matrices, which are those of a model that is not at hand"),
+    unvouched("recovery_faces", "cells of a mesh that is not at hand"),
+    unvouched("recovery_face_offsets", "cells of a mesh that is not at hand"),
     unvouched(
         "recovery_positions",
         "rows that move with them may be changed too; motions that are not six units tell none",
@@ -124,7 +126,9 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "quantities" => tensors.quantities.is_some(),
         "matrices" => !tensors.matrices.is_empty(),
         "damping" => metadata.matrices.iter().any(|matrix| matrix.kind == MatrixKind::Damping),
-        "recovery" | "recovery_dofs" => tensors.recovery.is_some(),
+        // Faces may have been taken out.
+        "recovery" | "recovery_dofs" | "recovery_faces" => tensors.recovery.is_some(),
+        "recovery_face_offsets" => tensors.recovery.as_ref().is_some_and(|recovery| recovery.faces().is_some()),
         "recovery_positions" => tensors.recovery.as_ref().is_some_and(|recovery| recovery.positions().is_some()),
         _ => true,
     };

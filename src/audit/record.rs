@@ -80,18 +80,33 @@ fn missing(content: &Content<'_>, checks: &[CheckSummary]) -> Vec<String> {
 
 /// How often a reduction like that of the file records a check at least.
 fn least(content: &Content<'_>, entry: &Entry) -> usize {
-    let certify = content.job.as_ref().map(Job::certified);
+    let certify = content.job().map(Job::certified);
     match entry.recorded {
         Recorded::Always(count) => count,
-        Recorded::WithInterface => usize::from(content.n_b > 0),
+        Recorded::WithMass([with, without]) => {
+            if content.has_mass() {
+                with
+            } else {
+                without
+            }
+        }
+        Recorded::WithConstraintModes => usize::from(!content.is_attached()),
+        Recorded::WithCarryingInterface => usize::from(content.n_b > 0 && !content.is_attached()),
+        Recorded::WithAttachmentModes(count) => {
+            if content.is_attached() {
+                count
+            } else {
+                0
+            }
+        }
         Recorded::WithCount => usize::from(matches!(certify, Some(Certify::Count | Certify::Full))),
         Recorded::WithResidualVector => {
             let mut columns = content.superelement.metadata().named_columns();
             usize::from(columns.any(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })))
         }
-        Recorded::WithDamping => usize::from(content.job.as_ref().is_some_and(Job::has_damping)),
+        Recorded::WithDamping => usize::from(content.job().is_some_and(Job::has_damping)),
         Recorded::WithAccepted(measure) => {
-            let accept = content.job.as_ref().map(Job::accepted).unwrap_or_default();
+            let accept = content.job().map(Job::accepted).unwrap_or_default();
             let limit = match measure {
                 AccuracyMeasure::Frequency => accept.frequency,
                 AccuracyMeasure::Response => accept.response_db,
@@ -121,6 +136,9 @@ fn bars(content: &Content<'_>, checks: &[CheckSummary]) -> Option<String> {
 
 /// The last M-23 on record is the condition of M̂ with a diagonal near one.
 fn mass_condition(content: &Content<'_>, checks: &[CheckSummary]) -> Result<Option<String>> {
+    if !content.has_mass() {
+        return Ok(None);
+    }
     /// The powers of two that bring a diagonal near one depend on the units, by a factor of √2 each way: the condition by 4.
     const UNITS: f64 = 4.0;
     /// Where hardly a digit is left the value is a sign of that and no more.

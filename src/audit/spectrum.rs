@@ -119,13 +119,14 @@ fn unit_masses(content: &Content<'_>) -> Check {
             }
         }
     }
+    let limits = content.inertia_limits();
     Check {
         id: "M-03",
         name: "modal masses are one",
         equation: "max |M̂_ηη − I|",
         value: worst.0,
-        limits: Limits { engineering: 1e-10, ..Limits::default() },
-        fail_above: 1e-8,
+        limits,
+        fail_above: limits.value().max(1e-8),
         worst: worst.1,
     }
 }
@@ -168,7 +169,7 @@ pub(super) fn condition(content: &Content<'_>) -> Result<Check> {
 }
 
 /// λ_max / λ_min of D M D with unit diagonal. A semidefinite mass is judged by M-25.
-pub(super) fn condition_of(m: MatRef<'_, f64>) -> Result<f64> {
+pub(crate) fn condition_of(m: MatRef<'_, f64>) -> Result<f64> {
     condition_on(m, None)
 }
 
@@ -207,13 +208,13 @@ pub(crate) fn negative_mass(m: MatRef<'_, f64>) -> Result<Option<f64>> {
 
 /// M-25, definiteness. As in a reduction a mass that is singular is not a failure; M-23 shows it.
 pub(super) fn definiteness(content: &Content<'_>, spectrum: &Spectrum) -> Check {
-    let is_mass = matches!(negative_mass(content.m.as_ref()), Ok(None));
+    let (first, is_mass) = (spectrum.of_energies(content), matches!(negative_mass(content.m.as_ref()), Ok(None)));
     let (value, worst) = match spectrum.free.first() {
         _ if !is_mass => (f64::INFINITY, Some("the reduced mass has a negative eigenvalue".to_owned())),
         None if content.n_reduced() > 0 => (f64::INFINITY, Some("K̂ + λ₁M̂ is not definite".to_owned())),
-        lowest => ((-lowest.copied().unwrap_or(0.0) / content.first).max(0.0), None),
+        lowest => ((-lowest.copied().unwrap_or(0.0) / first).max(0.0), None),
     };
-    let Judged { limits, fail_above } = content.energy_limits(content.first);
+    let Judged { limits, fail_above } = content.energy_limits(first);
     Check {
         id: "M-25",
         name: "reduced mass and stiffness are not negative",

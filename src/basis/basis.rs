@@ -4,7 +4,7 @@ use faer::prelude::ReborrowMut;
 use faer::{Mat, MatRef};
 
 use super::dynamic::{self, DroppedColumn, DynamicColumns, DynamicCoordinate};
-use crate::constraint::ConstraintModes;
+use crate::constraint::{ConstraintModes, StaticModes};
 use crate::dense;
 use crate::eigen::Modes;
 use crate::error::{Error, Result};
@@ -12,9 +12,9 @@ use crate::sparse::Leading;
 
 /// The modal reduction matrix in its blocks.
 #[derive(Clone, Debug)]
-pub struct Basis {
-    /// Ψ_S, n_I × n_B.
-    pub constraint_modes: Mat<f64>,
+pub struct Basis<'a> {
+    /// Ψ_S, n_I × n_B; Rubin's static modes Ψ_R where K_II is singular.
+    pub constraint_modes: StaticModes<'a>,
     /// Ψ_D, n_I × n_η, M_II-orthonormal.
     pub dynamic_modes: Mat<f64>,
     /// What each column of Ψ_D is.
@@ -27,15 +27,15 @@ pub struct Basis {
     pub dropped: Vec<DroppedColumn>,
 }
 
-impl Basis {
+impl<'a> Basis<'a> {
     /// Puts constraint modes and dynamic columns together; dependent columns are left out by name.
-    pub fn new(constraint: &ConstraintModes, columns: &DynamicColumns, internal_mass: Leading<'_>) -> Self {
+    pub fn new(constraint: &ConstraintModes<'a>, columns: &DynamicColumns, internal_mass: Leading<'_>) -> Self {
         Self::keeping(constraint, columns, (internal_mass, &[]))
     }
 
     /// The basis with these of the named columns, whatever is left of their length.
     pub(super) fn keeping(
-        constraint: &ConstraintModes,
+        constraint: &ConstraintModes<'a>,
         columns: &DynamicColumns,
         (internal_mass, asked): (Leading<'_>, &[usize]),
     ) -> Self {
@@ -58,6 +58,15 @@ impl Basis {
         if self.n_reduced() == 0 { Err(Error::NothingLeft) } else { Ok(self) }
     }
 
+    /// The rigid-body modes in modal coordinates where they are columns of their own, n_η × n_r; none where the interface carries them.
+    pub(crate) fn rigid_amplitudes(&self) -> Option<MatRef<'_, f64>> {
+        let left_out = self.dropped.iter().map(|column| &column.coordinate);
+        let named = self.coordinates.iter().chain(left_out);
+        let count = named.filter(|coordinate| matches!(coordinate, DynamicCoordinate::RigidBody(_))).count();
+        // They come first.
+        (count > 0).then(|| self.mixing.as_ref().subcols(0, count))
+    }
+
     /// n_η.
     pub fn n_dynamic(&self) -> usize {
         self.dynamic_modes.ncols()
@@ -72,17 +81,17 @@ impl Basis {
 
     /// n_B + n_η.
     pub fn n_reduced(&self) -> usize {
-        self.constraint_modes.ncols() + self.n_dynamic()
+        self.constraint_modes.n_interface() + self.n_dynamic()
     }
 
     /// Ψ q: motions of the component from reduced coordinates, n' × k.
     pub(crate) fn expanded(&self, coordinates: MatRef<'_, f64>) -> Mat<f64> {
-        let (n_i, n_b) = (self.constraint_modes.nrows(), self.constraint_modes.ncols());
+        let (n_i, n_b) = (self.constraint_modes.n_internal(), self.constraint_modes.n_interface());
         let (q_b, eta) = coordinates.split_at_row(n_b);
         let mut motions = Mat::zeros(n_i + n_b, coordinates.ncols());
         motions.as_mut().subrows_mut(n_i, n_b).copy_from(q_b);
         let mut internal = motions.as_mut().subrows_mut(0, n_i);
-        dense::add_product(internal.rb_mut(), 1.0, self.constraint_modes.as_ref(), q_b);
+        self.constraint_modes.add_followed(internal.rb_mut(), 1.0, q_b);
         dense::add_product(internal, 1.0, self.dynamic_modes.as_ref(), eta);
         motions
     }
@@ -102,7 +111,7 @@ impl Basis {
 
     /// The retained modes in reduced coordinates, (n_B + n_η) × k: the V̄ of equations (34) and (35).
     pub fn reduced_modes(&self, modes: &Modes, n_internal: usize) -> Mat<f64> {
-        let n_b = self.constraint_modes.ncols();
+        let n_b = self.constraint_modes.n_interface();
         let has_interface = modes.shapes.nrows() > n_internal;
         let first = self.mixing.ncols() - self.n_residual_vectors() - modes.count();
         Mat::from_fn(self.n_reduced(), modes.count(), |i, j| {

@@ -90,19 +90,20 @@ pub fn modal_columns(rigid: &RigidBodyModes, modes: &Modes) -> DynamicColumns {
     DynamicColumns { columns, coordinates: zero.chain((0..modes.count()).map(DynamicCoordinate::FreeFree)).collect() }
 }
 
-/// Inertia-relief modes K_II⁻¹ (MU)_I (37).
+/// Inertia-relief modes K_II⁻¹ (MU)_I (37) of the rigid-body modes `motions`, by their numbers.
 pub fn inertia_relief_columns(
     partition: &Partition,
     factor: &dyn SolveOperator,
-    rigid: &RigidBodyModes,
+    (rigid, motions): (&RigidBodyModes, &[usize]),
 ) -> DynamicColumns {
     // The modes of the file, not the orthonormal ones: a coordinate then answers to one named unit acceleration.
-    let inertia = product(&partition.mass, rigid.modes.as_ref());
+    let moved = dense::columns(rigid.modes.as_ref(), motions);
+    let inertia = product(&partition.mass, moved.as_ref());
     let mut columns = inertia.as_ref().subrows(0, partition.n_internal).to_owned();
-    let terms = absolute_energy(&partition.mass, rigid.modes.as_ref());
+    let terms = absolute_energy(&partition.mass, moved.as_ref());
     clear_unloaded(partition, &terms, columns.as_mut());
     factor.solve_in_place(columns.as_mut());
-    DynamicColumns { columns, coordinates: (0..rigid.count()).map(DynamicCoordinate::InertiaRelief).collect() }
+    DynamicColumns { columns, coordinates: motions.iter().copied().map(DynamicCoordinate::InertiaRelief).collect() }
 }
 
 /// Mode-accelerated expansion modes K_II⁻¹ (MV)_I (23) of a file. For eigenvectors these are X_I − Ψ_S X_B over ω², for rigid-body
@@ -120,12 +121,16 @@ pub fn expansion_columns(partition: &Partition, factor: &dyn SolveOperator) -> D
 ///
 /// Equation (23) asks for K_II⁻¹ (M_II X_I + M_IB X_B); for an eigenvector that is ω⁻² (X_I − Ψ_S X_B), without a solve.
 /// Every column is scaled to unit length, so the factor does not matter.
-pub fn accelerated_columns(partition: &Partition, constraint: &ConstraintModes, retained: &Retained) -> DynamicColumns {
+pub fn accelerated_columns(
+    partition: &Partition,
+    constraint: &ConstraintModes<'_>,
+    retained: &Retained,
+) -> DynamicColumns {
     let (n_i, n_b, modes) = (partition.n_internal, partition.n_interface(), &retained.modes);
     let mut columns = modes.shapes.as_ref().subrows(0, n_i).to_owned();
     if retained.boundary != Boundary::FixedInterface {
         let x_b = modes.shapes.as_ref().subrows(n_i, n_b);
-        dense::add_product(columns.as_mut(), -1.0, constraint.modes.as_ref(), x_b);
+        constraint.modes.add_followed(columns.as_mut(), -1.0, x_b);
         clear_rounding(partition, constraint, modes, columns.as_mut());
     }
     let kind = match retained.boundary {

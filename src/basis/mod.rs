@@ -5,8 +5,11 @@
 //! Ψ_D   n_I × n_η   dynamic modes: inertia-relief modes (37), fixed-interface modes (38) or mode-accelerated ones (23),
 //!                   computed or of a file; after them residual vectors of loads
 //! ```
+//! Where K_II is singular, Rubin's method has the static modes A_I A_B⁻¹ (41) in the place of constraint modes, and rigid-body modes among
+//! the dynamic ones.
 //! The reduction method decided which modes were chosen. From here on every method has this one form.
 
+mod attached;
 #[expect(clippy::module_inception, reason = "the basis is what the folder makes")]
 mod basis;
 mod dynamic;

@@ -15,6 +15,9 @@
 //! ```text
 //! y⊥ = y − Ψ_D Ψ_Dᵀ M_II y        ‖y − Ψ_D η‖_K ≤ ‖y⊥‖_K
 //! ```
+//! Inertia-relief modes are the answers to unit accelerations, and are judged like them: next to a heavy mass the answers to rotations have
+//! nearly the shape of those to translations, and what they add is all that an angular acceleration does to the rest of the component.
+//!
 //! A residual vector is left out where y⊥ has no more than [`ANSWERED`] of the energy of y, as a ratio of lengths, or no more than its solve
 //! lacks. M-27 asks no more than that of the columns that are left.
 
@@ -22,6 +25,7 @@ use faer::{Mat, MatRef};
 
 use super::basis::Basis;
 use super::dynamic::{DynamicColumns, DynamicCoordinate};
+use crate::constraint::ConstraintModes;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::rows_with_mass;
 use crate::factor::SolveOperator;
@@ -34,14 +38,19 @@ pub(crate) const ANSWERED: f64 = 1e-9;
 const ROUNDING: f64 = NOISE_FACTOR * f64::EPSILON;
 
 /// y of every load of the job, n_I × n_l; none for a free component without interface, which nothing holds while it answers.
-pub fn static_answers(component: Component<'_>) -> Option<Mat<f64>> {
+pub fn static_answers(component: Component<'_>, constraint: &ConstraintModes) -> Option<Mat<f64>> {
     let Component { partition, factor, .. } = component;
-    if component.is_modal() {
+    // Nothing holds it either where the interface leaves rigid-body motions free.
+    if component.is_modal() || constraint.attachment.is_some() {
         return None;
     }
     let mut answers = partition.loads.vectors.as_ref().subrows(0, partition.n_internal).to_owned();
-    if answers.ncols() > 0 {
-        factor.solve_in_place(answers.as_mut());
+    // A load on the interface alone leaves the interior at rest while the interface is held.
+    let inside: Vec<usize> = (0..partition.loads.count()).filter(|load| partition.loads.acts_inside(*load)).collect();
+    let mut solved = dense::columns(answers.as_ref(), &inside);
+    factor.solve_in_place(solved.as_mut());
+    for (at, load) in inside.into_iter().enumerate() {
+        answers.as_mut().col_mut(load).copy_from(solved.as_ref().col(at));
     }
     Some(answers)
 }
@@ -60,13 +69,17 @@ impl DynamicColumns {
     }
 }
 
-impl Basis {
-    /// As [`Self::new`], but for residual vectors: one that the others miss in energy is kept, however little of its length is left.
-    pub fn answering(component: Component<'_>, columns: &DynamicColumns) -> Self {
+impl<'a> Basis<'a> {
+    /// As [`Self::new`], but for residual vectors and inertia relief: one that the others miss in energy is kept, however little of its
+    /// length is left.
+    pub fn answering(component: Component<'_>, constraint: &ConstraintModes<'a>, columns: &DynamicColumns) -> Self {
         let mass = component.partition.internal().mass;
         let mut asked: Vec<usize> = Vec::new();
         loop {
-            let basis = Self::keeping(component.constraint, columns, (mass, &asked));
+            let basis = Self::keeping(constraint, columns, (mass, &asked));
+            if constraint.attachment.is_some() {
+                return basis;
+            }
             let missed: Vec<usize> = missed_answers(component, columns, &basis)
                 .into_iter()
                 .filter(|column| !asked.contains(column))
@@ -79,25 +92,31 @@ impl Basis {
     }
 }
 
-/// Numbers, among the named columns, of the residual vectors that were left out although the basis misses what they answer.
-fn missed_answers(component: Component<'_>, columns: &DynamicColumns, basis: &Basis) -> Vec<usize> {
+/// Numbers, among the named columns, of the static answers that were left out although the basis misses what they answer.
+fn missed_answers(component: Component<'_>, columns: &DynamicColumns, basis: &Basis<'_>) -> Vec<usize> {
     let mass = component.partition.internal().mass;
     // Columns that span the whole interior miss nothing that has mass, and no further one is orthogonal to them.
     if basis.dropped.is_empty() || basis.n_dynamic() == rows_with_mass(mass) {
         return Vec::new();
     }
-    let is_missed = |column: &usize| match columns.coordinates[*column] {
-        DynamicCoordinate::ResidualVector(load) => {
-            let answer = columns.columns.as_ref().subcols(*column, 1);
-            is_missed(component, (load, answer), basis.dynamic_modes.as_ref())
-        }
-        _ => false,
+    let Component { partition, rigid, .. } = component;
+    let is_missed = |column: &usize| {
+        let load = match columns.coordinates[*column] {
+            DynamicCoordinate::ResidualVector(load) => partition.loads.vectors.as_ref().subcols(load, 1).to_owned(),
+            DynamicCoordinate::InertiaRelief(motion) => {
+                product(&partition.mass, rigid.modes.as_ref().subcols(motion, 1))
+            }
+            _ => return false,
+        };
+        let load = load.as_ref().subrows(0, partition.n_internal);
+        let answer = columns.columns.as_ref().subcols(*column, 1);
+        is_missed(component, (load, answer), basis.dynamic_modes.as_ref())
     };
     (0..columns.coordinates.len()).filter(|column| !basis.kept.contains(column)).filter(is_missed).collect()
 }
 
 /// Whether what is left of the answer y to a load, without its parts along M-orthonormal columns, is more than its own error.
-fn is_missed(component: Component<'_>, (load, y): (usize, MatRef<'_, f64>), basis: MatRef<'_, f64>) -> bool {
+fn is_missed(component: Component<'_>, (load, y): (MatRef<'_, f64>, MatRef<'_, f64>), basis: MatRef<'_, f64>) -> bool {
     let pencil = component.partition.internal();
     let length = |x: MatRef<'_, f64>, image: MatRef<'_, f64>| {
         dense::dot(dense::column(x, 0), dense::column(image, 0)).max(0.0).sqrt()
@@ -110,7 +129,7 @@ fn is_missed(component: Component<'_>, (load, y): (usize, MatRef<'_, f64>), basi
         dense::add_product(left.as_mut(), -1.0, basis, parts.as_ref());
     }
     // What a solve lacks, K_II⁻¹ (f − K_II y), and the rounding of the entries.
-    let mut lacking = component.partition.loads.vectors.as_ref().get(0..y.nrows(), load..load + 1).to_owned();
+    let mut lacking = load.to_owned();
     lacking -= product(pencil.stiffness, y);
     component.factor.solve_in_place(lacking.as_mut());
     let rounding = f64::EPSILON * absolute_energy(pencil.stiffness, y)[0].sqrt();

@@ -7,6 +7,8 @@
 //! ```
 //! Scaled to unit length, rounding would be a column that no one asked for, under the name of a mode.
 
+use std::ops::Range;
+
 use faer::MatMut;
 use rayon::prelude::*;
 
@@ -30,7 +32,7 @@ const UNKNOWN: f64 = (NOISE_FACTOR * f64::EPSILON) * (NOISE_FACTOR * f64::EPSILO
 ///   Rayleigh quotient λ (1 − cᵀKc/λ) / (1 − 2cᵀKc/λ + cᵀMc). That is λ but for its last digit.
 pub(super) fn clear_rounding(
     partition: &Partition,
-    constraint: &ConstraintModes,
+    constraint: &ConstraintModes<'_>,
     modes: &Modes,
     mut accelerated: MatMut<'_, f64>,
 ) {
@@ -39,7 +41,11 @@ pub(super) fn clear_rounding(
     let pencil = partition.internal();
     let stiffness = pencil.stiffness.diagonal();
     let length = |column: &[f64]| column.iter().zip(&stiffness).map(|(x, k)| k.abs() * x * x).sum::<f64>().sqrt();
-    let of_psi_s: Vec<f64> = (0..n_b).map(|b| length(dense::column(constraint.modes.as_ref(), b))).collect();
+    let of_panel = |columns: Range<usize>| {
+        let psi_s = constraint.modes.columns(columns);
+        (0..psi_s.ncols()).map(|b| length(dense::column(psi_s.as_ref(), b))).collect::<Vec<f64>>()
+    };
+    let of_psi_s: Vec<f64> = panels(n_b).flat_map(of_panel).collect();
     for columns in panels(modes.count()) {
         let c = accelerated.as_ref().get(.., columns.clone());
         let energies = dense::dots(c, product(pencil.stiffness, c).as_ref());

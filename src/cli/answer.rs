@@ -2,8 +2,8 @@
 
 use std::io::{ErrorKind, IsTerminal, Write};
 
-use super::command::Threads;
 use super::exit_code::ExitCode;
+use super::threads::Threads;
 use crate::error::Error;
 use crate::report::{Paint, printable};
 

@@ -2,30 +2,44 @@
 
 use std::path::{Path, PathBuf};
 
+use super::certify_command::CertifyCommand;
+use super::convert_command::ConvertCommand;
+use super::doctor::DoctorCommand;
 use super::export_command::ExportCommand;
 use super::flags::{
     CommandLine, InspectFlags, ModelFlags, OutputFlags, ReduceFlags, ReductionFlags, Typed, VerifyFlags,
 };
+use super::init::InitCommand;
+use super::judging::{Answer, Strictness};
 use super::modes_command::ModesCommand;
-use super::process;
+use super::plan_command::PlanCommand;
 use super::recover_command::RecoverCommand;
+use super::selection_flags::{fixed, interfaces};
+use super::text_flags::{ExplainFlags, RecipeFlags};
+use super::threads::Threads;
 use super::unverified::Unverified;
-use crate::dofs::Direction;
 use crate::error::{Error, Result};
 use crate::job::{
-    Boundary, Coupling, Duplicates, FixedJob, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob,
-    NodeSelection, ReductionJob, RunJob, WriteJob,
+    Boundary, Duplicates, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob, ReductionJob, RunJob, Skip,
+    WriteJob,
 };
 
 /// One command, ready to run.
 #[derive(Debug)]
 pub(super) enum Command {
     Reduce(Box<ReduceCommand>),
+    Plan(Box<PlanCommand>),
     Verify(Box<VerifyCommand>),
     Inspect(InspectCommand),
+    Doctor(Box<DoctorCommand>),
+    Init(Box<InitCommand>),
+    Certify(Box<CertifyCommand>),
     Modes(ModesCommand),
     Export(ExportCommand),
     Recover(RecoverCommand),
+    Convert(ConvertCommand),
+    Explain(ExplainFlags),
+    Recipe(RecipeFlags),
     /// What a child process does for its parent, see [`super::rehearsal`].
     RehearseReading,
 }
@@ -73,30 +87,6 @@ pub(super) struct InspectCommand {
     pub(super) answer: InspectAnswer,
 }
 
-/// How many threads work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Threads {
-    /// As many as were asked for, or as the machine runs at once.
-    pub(super) asked: usize,
-    /// As many as are of use.
-    pub(super) used: usize,
-}
-
-impl Threads {
-    fn of(asked: Option<u16>) -> Self {
-        let asked = asked.map_or_else(process::available_threads, usize::from);
-        Self { asked, used: process::useful_threads(asked) }
-    }
-}
-
-/// What stdout carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Answer {
-    Text,
-    Json,
-    Nothing,
-}
-
 /// What `supel inspect` prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum InspectAnswer {
@@ -107,22 +97,22 @@ pub(super) enum InspectAnswer {
     Job,
 }
 
-/// Whether warnings count as failed checks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Strictness {
-    Normal,
-    Strict,
-}
-
 impl Command {
     pub(super) fn build(line: CommandLine) -> Result<Self> {
         match line.command {
             Typed::Reduce(flags) => build_reduce(*flags).map(|command| Self::Reduce(Box::new(command))),
+            Typed::Plan(flags) => PlanCommand::build(flags).map(|command| Self::Plan(Box::new(command))),
             Typed::Verify(flags) => build_verify(flags).map(|command| Self::Verify(Box::new(command))),
             Typed::Inspect(flags) => Ok(Self::Inspect(InspectCommand::of(flags))),
+            Typed::Init(flags) => InitCommand::build(*flags).map(|command| Self::Init(Box::new(command))),
+            Typed::Doctor(flags) => DoctorCommand::build(*flags).map(|command| Self::Doctor(Box::new(command))),
+            Typed::Certify(flags) => CertifyCommand::build(*flags).map(|command| Self::Certify(Box::new(command))),
             Typed::Modes(flags) => ModesCommand::build(flags).map(Self::Modes),
             Typed::Export(flags) => ExportCommand::build(flags).map(Self::Export),
             Typed::Recover(flags) => RecoverCommand::build(flags).map(Self::Recover),
+            Typed::Convert(flags) => ConvertCommand::build(flags).map(Self::Convert),
+            Typed::Explain(flags) => Ok(Self::Explain(flags)),
+            Typed::Recipe(flags) => Ok(Self::Recipe(flags)),
             Typed::RehearseReading => Ok(Self::RehearseReading),
         }
     }
@@ -182,6 +172,9 @@ fn build_reduce(flags: ReduceFlags) -> Result<ReduceCommand> {
     job.run.certify = reduction.certify.unwrap_or(job.run.certify);
     job.run.memory_gib = run.memory_gib.or(job.run.memory_gib);
     job.run.precision = run.precision.unwrap_or(job.run.precision);
+    if run.no_skip {
+        job.run.skip = Skip::Nothing;
+    }
     job.validate()?;
     // Paths of the document are absolute already; those of flags are relative to where the command was typed.
     let job = job.resolve(Path::new(""))?;
@@ -195,15 +188,16 @@ fn override_job(
     reduction: &ReductionFlags,
     output: OutputFlags,
 ) -> Result<(Job, Vec<String>)> {
-    let (typed, held) = (interfaces(&model)?, fixed(&model)?);
+    let (typed, held) = (interfaces(&model)?, fixed(&model.fix)?);
     let twice = |name| Error::InterfaceTwice { name };
     let mut remarks = put_by_name(&mut job.interfaces, typed, "interface", |job| Some(&job.name), twice)?;
     let twice = |name| Error::FixedTwice { name };
     remarks.extend(put_by_name(&mut job.fixed, held, "fixed", |job| job.name.as_deref(), twice)?);
     replace(&mut job.model.stiffness, model.stiffness);
-    replace(&mut job.model.mass, model.mass);
+    job.model.mass = model.mass.or(job.model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
     job.model.nodes = model.nodes.or(job.model.nodes);
+    job.model.layout = model.layout.or(job.model.layout);
     job.model.symmetric = model.symmetric.or(job.model.symmetric);
     job.model.drop_empty |= model.drop_empty;
     replace(&mut job.reduction.method, reduction.method);
@@ -257,7 +251,7 @@ fn put_by_name<T>(
 }
 
 fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlags) -> Result<Job> {
-    let (interfaces, fixed) = (interfaces(&model)?, fixed(&model)?);
+    let (interfaces, fixed) = (interfaces(&model)?, fixed(&model.fix)?);
     let modes = modes(reduction);
     let are_modes_told = modes.is_some() || reduction.method.is_some_and(|method| method.modes() == ModeOrigin::None);
     let (Some(stiffness), Some(mass), Some(method), true, Some(superelement)) =
@@ -277,9 +271,10 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
     Ok(Job {
         model: ModelJob {
             stiffness: stiffness.clone(),
-            mass: mass.clone(),
+            mass: Some(mass.clone()),
             dofs: model.dofs,
             nodes: model.nodes,
+            layout: model.layout,
             symmetric: model.symmetric,
             drop_empty: model.drop_empty,
             ..ModelJob::default()
@@ -322,54 +317,4 @@ fn flag_of_modes(method: Option<Method>) -> &'static str {
         Some(ModeOrigin::File) => "--modes-from",
         Some(ModeOrigin::Computed | ModeOrigin::None) | None => "--up-to-hz or --modes",
     }
-}
-
-/// The interfaces of the flags: the direct ones, then the rigid ones, each in the order typed.
-fn interfaces(model: &ModelFlags) -> Result<Vec<InterfaceJob>> {
-    let direct = model.interface.iter().map(|text| interface("--interface", text, Coupling::Direct));
-    let rigid = model.rigid_interface.iter().map(|text| interface("--rigid-interface", text, Coupling::Rigid));
-    direct.chain(rigid).collect()
-}
-
-fn interface(flag: &'static str, text: &str, coupling: Coupling) -> Result<InterfaceJob> {
-    let wrong = |expected| Error::FlagText { flag, text: text.to_owned(), expected };
-    let (name, nodes) = text.split_once('=').ok_or_else(|| wrong("NAME=NODES, as in hub=12,17,19"))?;
-    let nodes = nodes_of(nodes).map_err(wrong)?;
-    Ok(InterfaceJob::new(name, nodes, coupling))
-}
-
-/// The held dofs of the flags, in the order typed.
-fn fixed(model: &ModelFlags) -> Result<Vec<FixedJob>> {
-    let of_flag = |text: &String| {
-        let wrong = |expected| Error::FlagText { flag: "--fix", text: text.clone(), expected };
-        let (name, nodes) = text.split_once('=').ok_or_else(|| wrong("NAME=NODES[:DOFS], as in foot=12,17:ux,uy"))?;
-        let (nodes, dofs) = match nodes.rsplit_once(':').map(|(nodes, last)| (nodes, directions(last))) {
-            // `group:ux` is the group of that name.
-            Some((nodes, Some(dofs))) if nodes != "group" => (nodes, Some(dofs)),
-            _ => (nodes, None),
-        };
-        Ok(FixedJob { name: Some(name.to_owned()), nodes: nodes_of(nodes).map_err(wrong)?, dofs })
-    };
-    model.fix.iter().map(of_flag).collect()
-}
-
-/// The nodes that follow the name in a flag; what was expected where they are none.
-fn nodes_of(text: &str) -> std::result::Result<NodeSelection, &'static str> {
-    if text.starts_with("group:") {
-        return Ok(NodeSelection::Group(text.to_owned()));
-    }
-    if let Some(rows) = text.strip_prefix("rows:") {
-        let rows = numbers(rows).ok_or("row numbers from zero, as in hub=rows:0,1,2")?;
-        return Ok(NodeSelection::Rows { rows });
-    }
-    numbers(text).map(NodeSelection::Labels).ok_or("node labels, group:NAME or rows:0,1,2 after the =")
-}
-
-fn directions(text: &str) -> Option<Vec<Direction>> {
-    let direction = |word: &str| Direction::ALL.into_iter().find(|direction| direction.to_string() == word.trim());
-    text.split(',').map(direction).collect()
-}
-
-fn numbers<T: std::str::FromStr>(text: &str) -> Option<Vec<T>> {
-    text.split(',').map(|number| number.trim().parse().ok()).collect()
 }

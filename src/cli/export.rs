@@ -1,5 +1,6 @@
 //! `supel export`: a superelement in a format of other programs, or an assembly as one model.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
@@ -18,6 +19,7 @@ use crate::assembly::Assembly;
 use crate::error::{Error, Result};
 use crate::export::{ExportedFile, Joined, Names};
 use crate::number;
+use crate::regular_file::digest;
 use crate::report::{printable, value_text};
 
 pub(super) fn run(command: &ExportCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
@@ -63,9 +65,11 @@ fn of_file(command: &ExportCommand, path: &Path) -> Result<Made> {
     let verdict = metadata.verification.verdict;
     let is_refused = command.unverified.refuses(verdict);
     let files = if is_refused { Vec::new() } else { files_of(command, path, &superelement)? };
+    let mut inputs = vec![("the superelement", path.to_owned())];
+    inputs.extend(of_models(&files, [&superelement]));
     let sealed = superelement.to_bytes().map_err(|error| Error::of_superelement(path, error))?;
     Ok(Made {
-        inputs: vec![("the superelement", path.to_owned())],
+        inputs,
         files,
         verdict,
         refused: if is_refused { vec![path.to_owned()] } else { Vec::new() },
@@ -99,10 +103,13 @@ fn of_assembly(command: &ExportCommand, parts: &AssemblyCommand, kept: &[String]
         text: command.format.name().to_owned(),
         expected: "matrix-market, in which an assembly is a model",
     })?;
+    let files = if refused.is_empty() { placed(&names, files) } else { Vec::new() };
+    let mut inputs: Vec<Named> = paths().map(|path| ("a superelement", path.clone())).collect();
+    inputs.extend(of_models(&files, assembly.components.iter().map(|component| &component.superelement)));
     let called: Vec<String> = parts.components.iter().map(|(name, _)| printable(name).into_owned()).collect();
     Ok(Made {
-        inputs: paths().map(|path| ("a superelement", path.clone())).collect(),
-        files: if refused.is_empty() { placed(&names, files) } else { Vec::new() },
+        inputs,
+        files,
         verdict,
         refused,
         units: assembly.components.iter().find_map(|component| component.superelement.metadata().units.clone()),
@@ -134,6 +141,22 @@ fn names(command: &ExportCommand) -> Result<Names> {
 
 fn placed(names: &Names, files: Vec<ExportedFile>) -> Vec<(PathBuf, ExportedFile)> {
     files.into_iter().map(|file| (names.path(file.ending), file)).collect()
+}
+
+/// Files that superelements were reduced from, among those that would be written over. A superelement keeps no paths: the bytes tell.
+fn of_models<'a>(
+    files: &[(PathBuf, ExportedFile)],
+    superelements: impl IntoIterator<Item = &'a Superelement>,
+) -> Vec<Named> {
+    let digests: BTreeSet<&str> =
+        superelements.into_iter().flat_map(|file| file.metadata().inputs.values()).map(String::as_str).collect();
+    let is_input = |path: &&PathBuf| path.is_file() && digest(path).is_ok_and(|found| digests.contains(found.as_str()));
+    files
+        .iter()
+        .map(|(path, _)| path)
+        .filter(is_input)
+        .map(|path| ("an input of the reduction", path.clone()))
+        .collect()
 }
 
 /// What a file says of its verification.

@@ -2,11 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, Resettable, TypedValueParser};
-use clap::{ArgGroup, Args, Parser, Subcommand, ValueEnum};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{ArgGroup, Args, Parser, Subcommand};
 
+use super::flag_values::values;
+use super::subject_flags::{CertifyFlags, DoctorFlags, InitFlags};
+use super::text_flags::{ExplainFlags, RecipeFlags};
+use crate::conversion::Target;
 use crate::export::{FORMATS, Format};
-use crate::job::{Certify, Eigensolver, HeldInterface, Method, Precision};
+use crate::job::{Certify, Eigensolver, InterfacePart, Layout, Method, Precision};
 use crate::sparse::Triangle;
 
 /// Turns finite element models into verified superelements for multibody simulation.
@@ -22,11 +26,23 @@ pub(super) enum Typed {
     /// Reduce a model, verify the result and write superelement and report
     #[command(after_help = EXIT_CODES)]
     Reduce(Box<ReduceFlags>),
+    /// Say what a job will do and what it will cost: stages, time, memory, size of the answer
+    #[command(after_help = EXIT_CODES)]
+    Plan(PlanFlags),
     /// Check a superelement file: by itself, against the full matrices (--job) or by running its job again (--reproduce)
     #[command(after_help = EXIT_CODES)]
     Verify(VerifyFlags),
     /// Show what is in a superelement file
     Inspect(InspectFlags),
+    /// Find out what a pair of matrices is, what is wrong with it, and what to do about it
+    #[command(after_help = EXIT_CODES)]
+    Doctor(Box<DoctorFlags>),
+    /// Hold eigenpairs or a superelement of another program against K and M: modes missing, invented, inexact; what is not preserved
+    #[command(after_help = EXIT_CODES)]
+    Certify(Box<CertifyFlags>),
+    /// Propose a job for a pair of matrices, from its groups and faces, with comments
+    #[command(after_help = EXIT_CODES)]
+    Init(Box<InitFlags>),
     /// Find the modes of superelements that are joined, held and loaded at their interfaces
     #[command(after_help = EXIT_CODES)]
     Modes(ModesFlags),
@@ -36,6 +52,13 @@ pub(super) enum Typed {
     /// Write a superelement in a format of other programs, or as a model that can be reduced again; or an assembly as one model
     #[command(after_help = EXIT_CODES)]
     Export(ExportFlags),
+    /// Write a matrix in another format, every bit kept
+    #[command(after_help = EXIT_CODES)]
+    Convert(ConvertFlags),
+    /// Print what a code means and what to do about it, or all codes
+    Explain(ExplainFlags),
+    /// Print what to write into the deck of a program so that it exports K, M and what their rows are
+    Recipe(RecipeFlags),
     /// Read a model described on stdin and discard it
     #[command(hide = true, name = super::rehearsal::SUBCOMMAND)]
     RehearseReading,
@@ -62,7 +85,7 @@ pub(super) struct ReduceFlags {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Model")]
 pub(super) struct ModelFlags {
-    /// File of the stiffness matrix K; a group of an HDF5 file follows a colon: model.h5:/K
+    /// File of the stiffness matrix K; its name in a file of several follows a colon: model.h5:/K, model.op4:KAA
     #[arg(long, value_name = "FILE")]
     pub(super) stiffness: Option<PathBuf>,
     /// File of the mass matrix M
@@ -74,6 +97,9 @@ pub(super) struct ModelFlags {
     /// Table of nodes or mesh
     #[arg(long, value_name = "FILE")]
     pub(super) nodes: Option<PathBuf>,
+    /// Format of the files of K and M, where their content leaves several
+    #[arg(long, value_name = "FORMAT", value_parser = values::<Layout>())]
+    pub(super) layout: Option<Layout>,
     /// Which triangle of K and M is right, where the other is incomplete
     #[arg(long, value_parser = values::<Triangle>())]
     pub(super) symmetric: Option<Triangle>,
@@ -122,9 +148,9 @@ pub(super) struct ReductionFlags {
 
 impl ReductionFlags {
     /// What is held while modes are computed; nothing between commas is nothing held.
-    pub(super) fn held(&self) -> Option<Vec<HeldInterface>> {
+    pub(super) fn held(&self) -> Option<Vec<InterfacePart>> {
         let held = self.held.as_ref()?.iter().filter(|held| !held.is_empty());
-        Some(held.cloned().map(HeldInterface).collect())
+        Some(held.cloned().map(InterfacePart).collect())
     }
 }
 
@@ -171,6 +197,35 @@ pub(super) struct RunFlags {
     /// Precision of the stored factor: mixed takes half the memory and more time [default: double]
     #[arg(long, value_name = "HOW", value_parser = values::<Precision>())]
     pub(super) precision: Option<Precision>,
+    /// Compute even what the scene never asks, to compare with
+    #[arg(long)]
+    pub(super) no_skip: bool,
+}
+
+#[derive(Debug, Args)]
+// One field for each switch that can be typed.
+#[expect(clippy::struct_excessive_bools)]
+pub(super) struct PlanFlags {
+    /// Job document, TOML or JSON
+    pub(super) job: PathBuf,
+    /// Count the modes of a band even where that takes a long factorisation [otherwise their number is then a guess]
+    #[arg(long)]
+    pub(super) count_modes: bool,
+    /// Measure how fast this machine is, even where it is known from earlier
+    #[arg(long)]
+    pub(super) calibrate: bool,
+    /// Plan with what the scene never asks
+    #[arg(long)]
+    pub(super) no_skip: bool,
+    /// Number of threads of the run [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
+    /// Memory that the run may use, in GiB [default: what is free]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub(super) memory_gib: Option<f64>,
+    /// Print the plan as JSON
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -291,6 +346,32 @@ pub(super) struct ExportFlags {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct ConvertFlags {
+    /// File of the matrix; its name in a file of several follows a colon: model.h5:/K, model.op4:KAA
+    pub(super) from: PathBuf,
+    /// File to be written; its ending says the format: .mtx, .mat, .npz, .op4
+    pub(super) output: PathBuf,
+    /// Format of the file that is read, where its content leaves several
+    #[arg(long, value_name = "FORMAT", value_parser = values::<Layout>())]
+    pub(super) layout: Option<Layout>,
+    /// Format of the file that is written, where its ending does not say it
+    #[arg(long, value_name = "FORMAT", value_parser = values::<Target>())]
+    pub(super) to: Option<Target>,
+    /// Dof map, in whose order the rows of a matrix that names them are written
+    #[arg(long, value_name = "FILE")]
+    pub(super) dofs: Option<PathBuf>,
+    /// Write the node and direction of each row to this table
+    #[arg(long, value_name = "FILE")]
+    pub(super) write_dofs: Option<PathBuf>,
+    /// Name of the matrix in formats that have names [default: that in the file read, or the name of the file written]
+    #[arg(long)]
+    pub(super) name: Option<String>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, Args)]
 // One field for each switch that can be typed.
 #[expect(clippy::struct_excessive_bools)]
 pub(super) struct VerifyFlags {
@@ -314,12 +395,6 @@ pub(super) struct VerifyFlags {
     /// Number of threads; results do not depend on it [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
-}
-
-/// The values of an enum of the job, without the descriptions that its schema has.
-fn values<T: ValueEnum + Clone + Send + Sync + 'static>() -> impl TypedValueParser<Value = T> {
-    let names = T::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-    PossibleValuesParser::new(names.map(|name| name.help(Resettable::Reset))).try_map(|name| T::from_str(&name, false))
 }
 
 /// The formats of exports by name.

@@ -14,7 +14,7 @@ use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
 use crate::recovery::coordinate_names;
 use crate::report::{inspection, value_text};
-use crate::rubin::{Herting, Rubin};
+use crate::rubin::Rubin;
 
 pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let (superelement, bytes) = superelement_file::read(&command.file)?;
@@ -38,8 +38,7 @@ pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Resu
 
 /// Rubin's matrices, and how their coordinates [u_B; η; u_F] make those of the file; matrices as lists of rows.
 fn rubin(superelement: &Superelement, path: &Path) -> Result<Value> {
-    let herting = Herting::of_file(superelement).ok_or_else(|| Error::NoInertiaRelief { path: path.to_owned() })?;
-    let rubin = Rubin::new(herting)?;
+    let rubin = Rubin::of_file(superelement)?.ok_or_else(|| Error::NoInertiaRelief { path: path.to_owned() })?;
     let rows = |a: &Mat<f64>| -> Vec<Vec<f64>> {
         (0..a.nrows()).map(|i| (0..a.ncols()).map(|j| a[(i, j)]).collect()).collect()
     };

@@ -13,27 +13,47 @@ mod accompanying;
 mod answer;
 mod assembled;
 mod assembly_command;
+mod calibration;
+mod certify;
+mod certify_command;
+mod codes;
 mod command;
+mod convert;
+mod convert_command;
+mod doctor;
 mod exit_code;
+mod explain;
 mod export;
 mod export_command;
+mod flag_values;
 mod flags;
+mod init;
 mod inspect;
+mod judging;
 mod memory;
 mod modes;
 mod modes_command;
 mod outputs;
 mod overwriting;
 mod pipeline;
+mod plan;
+mod plan_command;
 mod process;
 mod progress;
+mod recipe;
+mod recipes;
 mod recover;
 mod recover_command;
 mod reduce;
 mod refusal;
 mod rehearsal;
+mod selection_flags;
 mod signals;
+mod subject_command;
+mod subject_flags;
 mod superelement_file;
+mod text_flags;
+mod threads;
 mod unmet;
 mod unverified;
 mod verify;
@@ -52,8 +72,9 @@ use command::Command;
 use refusal::{Form, Refusal};
 
 pub use answer::{Stdout, Terminal};
+pub use calibration::rates;
 pub use exit_code::ExitCode;
-pub use pipeline::{Pipeline, Reduce, Verify};
+pub use pipeline::{Calibration, Certify, Examine, Foresee, Measure, Pipeline, Reduce, Verify};
 
 /// Runs one command line, `args` with the program's name first, and says how it went.
 ///
@@ -98,11 +119,18 @@ fn quoting_safely(error: clap::Error, args: &[OsString]) -> clap::Error {
 fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     match Command::build(flags)? {
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
+        Command::Plan(command) => plan::run(&command, pipeline, terminal),
         Command::Verify(command) => verify::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),
+        Command::Doctor(command) => doctor::run(&command, pipeline, terminal),
+        Command::Init(command) => init::run(&command, pipeline, terminal),
+        Command::Certify(command) => certify::run(&command, pipeline, terminal),
         Command::Modes(command) => modes::run(&command, terminal),
         Command::Export(command) => export::run(&command, terminal),
         Command::Recover(command) => recover::run(&command, terminal),
+        Command::Convert(command) => convert::run(&command, terminal),
+        Command::Explain(flags) => explain::run(&flags, terminal),
+        Command::Recipe(flags) => recipe::run(&flags, terminal),
         Command::RehearseReading => rehearsal::read_from_stdin(),
     }
 }

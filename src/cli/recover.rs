@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use supel_runtime::{Precision, Recovery, Superelement, Verdict};
+use supel_runtime::{Flag, Precision, Recovery, Superelement, Verdict};
 
 use super::answer::Terminal;
 use super::exit_code::ExitCode;
@@ -101,15 +101,22 @@ fn loads<'a>(path: &'a Path, command: &RecoverCommand, superelement: &'a Superel
     if superelement.n_interface() == 0 {
         return Err(lacking(&command.file, "interface", "--loads", "[[interface]]"));
     }
+    let has_acceleration = command.states.path(Order::Acceleration).is_some();
+    if has_acceleration && superelement.metadata().flags.contains(&Flag::StiffnessOnly) {
+        return Err(lacking(&command.file, "mass", "--acceleration", "scene.analysis"));
+    }
     let sheet = InterfaceLoads::new(superelement);
     let sheet = match (&command.gravity, &superelement.tensors().gravity) {
         (None, _) => sheet,
+        (Some(field), _) if !superelement.metadata().validity.allows_gravity(*field) => {
+            return Err(lacking(&command.file, "answer to gravity along that direction", "--gravity", "scene.gravity"));
+        }
         (Some(field), Some(of_file)) => sheet.with_gravity(of_file, field),
         (Some(_), None) => {
             return Err(lacking(&command.file, "loads of gravity", "--gravity", "model.dofs and model.nodes"));
         }
     };
-    let inertia = if command.states.path(Order::Acceleration).is_some() { "" } else { ", without those of inertia," };
+    let inertia = if has_acceleration { "" } else { ", without those of inertia," };
     Ok(Asked { flag: "--loads", path, content: format!("loads on the interface{inertia}"), sheet: Box::new(sheet) })
 }
 

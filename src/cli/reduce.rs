@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use supel_runtime::{StagedFile, Superelement};
 
 use super::answer::{Program, Terminal};
-use super::command::{Answer, ReduceCommand, Strictness};
+use super::command::ReduceCommand;
 use super::exit_code::ExitCode;
+use super::judging::{Answer, Strictness};
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
 use super::overwriting::OwnFiles;
 use super::pipeline::Pipeline;
@@ -32,7 +33,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     refuse_unwritable(&own)?;
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let rehearsed = match terminal.program {
-        Program::Supel => rehearsal::rehearse(&command.job, resources.allowed(&command.job))?,
+        Program::Supel => rehearsal::rehearse(&command.job, &[], resources.allowed(&command.job))?,
         Program::Other => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {

@@ -10,11 +10,12 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
+use supel_runtime::MatrixKind;
 
 use super::exit_code::ExitCode;
 use super::process;
 use crate::error::{Error, Result};
-use crate::input::{self, Allowance, Cells};
+use crate::input::{self, Allowance, Cells, SingleMatrix};
 use crate::job::{Job, MatrixJob, ModelJob};
 
 /// The hidden subcommand of the child.
@@ -30,9 +31,10 @@ const LONGEST_PAUSE: Duration = Duration::from_millis(20);
 /// What the parent writes for the child: one line on its stdin, which stays open as long as its parent lives.
 #[derive(Serialize, Deserialize)]
 struct Task {
-    model: ModelJob,
+    /// None where the matrices alone are read.
+    model: Option<ModelJob>,
     matrices: Vec<MatrixJob>,
-    modes: Option<PathBuf>,
+    modes: Vec<PathBuf>,
     cells: Cells,
     memory_bytes: Option<u64>,
 }
@@ -58,28 +60,45 @@ impl Rehearsed {
     }
 }
 
-/// Reads the HDF5 files of a job in a child process, where there are any, in no more than `memory_bytes`; the cells of the mesh too
-/// where this process will.
+/// Reads the HDF5 files of a job and of results that are read in addition to it in a child process, where there are any, in no more than
+/// `memory_bytes`; the cells of the mesh too where this process will.
 ///
 /// An error that the child finds in a file is not passed on: this process finds the same one.
 ///
 /// # Errors
 /// [`Error::Hdf5Crash`], [`Error::Hdf5Time`], [`Error::OutOfMemory`] and [`Error::RehearsalKilled`] by how the child ended;
 /// [`Error::Rehearsal`] where it could not be started.
-pub(super) fn rehearse(job: &Job, memory_bytes: Option<u64>) -> Result<Rehearsed> {
-    let Some(path) = input::hdf5_file(job) else { return Ok(Rehearsed::Nothing) };
-    let modes = job.reduction.modes_file().map(Path::to_owned);
-    let task =
-        Task { model: job.model.clone(), matrices: job.matrices.clone(), modes, cells: Cells::of(job), memory_bytes };
+pub(super) fn rehearse(job: &Job, results: &[PathBuf], memory_bytes: Option<u64>) -> Result<Rehearsed> {
+    let Some(path) = input::hdf5_file(job, results) else { return Ok(Rehearsed::Nothing) };
+    let modes = job.reduction.modes_file().map(Path::to_owned).into_iter().chain(results.iter().cloned()).collect();
+    let (model, matrices) = (Some(job.model.clone()), job.matrices.clone());
+    rehearsed(&Task { model, matrices, modes, cells: Cells::of(job), memory_bytes }, &path)
+}
+
+/// Reads one matrix in a child process, where the HDF5 library reads it.
+///
+/// # Errors
+/// Those of [`rehearse`].
+pub(super) fn rehearse_matrix(matrix: &SingleMatrix, memory_bytes: Option<u64>) -> Result<Rehearsed> {
+    if !matrix.is_parsed_in_c() {
+        return Ok(Rehearsed::Nothing);
+    }
+    let (file, layout) = (matrix.file.clone(), matrix.layout);
+    let matrices = vec![MatrixJob { name: "the matrix".to_owned(), kind: MatrixKind::Damping, file, layout }];
+    let task = Task { model: None, matrices, modes: Vec::new(), cells: Cells::Unwanted, memory_bytes };
+    rehearsed(&task, &matrix.path())
+}
+
+fn rehearsed(task: &Task, path: &Path) -> Result<Rehearsed> {
     let failed = |source| Error::Rehearsal { source };
-    let time = time_for(&path);
+    let time = time_for(path);
     let mut child = std::env::current_exe().and_then(|program| start(&program)).map_err(failed)?;
     let mut stdin = child.stdin.take();
-    let mut told = serde_json::to_vec(&task).map_err(|error| failed(error.into()))?;
+    let mut told = serde_json::to_vec(task).map_err(|error| failed(error.into()))?;
     told.push(b'\n');
     // A child that dies at once closes the pipe; how it ended says more than the broken pipe.
     let _ = stdin.as_mut().map(|stdin| stdin.write_all(&told));
-    judged(&mut child, time, &path)
+    judged(&mut child, time, path)
 }
 
 fn start(program: &Path) -> std::io::Result<Child> {
@@ -164,7 +183,7 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     input::start_hdf5()?;
     let mut stdout = std::io::stdout();
     stdout.write_all(STARTED).and_then(|()| stdout.flush()).map_err(failed)?;
-    let files = (&task.model, task.matrices.as_slice(), task.modes.as_deref());
+    let files = (task.model.as_ref(), task.matrices.as_slice(), task.modes.as_slice());
     match threads.install(|| input::read_hdf5_parts(files, task.cells, &Allowance::of(task.memory_bytes))) {
         Ok(()) => Ok(ExitCode::Done),
         Err(error @ Error::OutOfMemory { .. }) => Err(error),

@@ -1,6 +1,6 @@
 //! What `--quiet` says of checks and warnings that decide the exit code: a line for each.
 
-use super::command::Strictness;
+use super::judging::Strictness;
 use crate::error::Warning;
 use crate::report::unmet_check;
 use crate::verification::check::{Check, Verdict};

@@ -5,8 +5,9 @@ use std::path::Path;
 use supel_runtime::Superelement;
 
 use super::answer::{Program, Terminal};
-use super::command::{Answer, Rerun, Strictness, VerifyCommand};
+use super::command::{Rerun, VerifyCommand};
 use super::exit_code::ExitCode;
+use super::judging::{Answer, Strictness};
 use super::pipeline::Pipeline;
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
@@ -29,7 +30,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     let resources = Resources { memory_bytes: memory::available_bytes() };
     let to_read = command.job.as_ref().or(rerun.as_ref());
     let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
-        Some(job) => rehearsal::rehearse(job, resources.allowed(job))?,
+        Some(job) => rehearsal::rehearse(job, &[], resources.allowed(job))?,
         None => Rehearsed::Nothing,
     };
     if command.answer != Answer::Nothing {

@@ -3,7 +3,7 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, MatMut, MatRef, Side};
 
-use super::{Carried, ConstraintModes};
+use super::{Carried, ConstraintModes, StaticModes};
 use crate::dense;
 use crate::eigen::ShiftInvert;
 use crate::error::{Error, Result};
@@ -28,7 +28,7 @@ use crate::sparse::{Leading, product};
 pub struct FreeAtZero<'a> {
     factor: &'a dyn SolveOperator,
     stiffness: Leading<'a>,
-    constraint_modes: MatRef<'a, f64>,
+    constraint_modes: StaticModes<'a>,
     carried: Option<&'a Carried>,
     schur: Schur,
 }
@@ -90,10 +90,10 @@ impl<'a> FreeAtZero<'a> {
     pub fn new(
         factor: &'a dyn SolveOperator,
         stiffness: impl Into<Leading<'a>>,
-        constraint: &'a ConstraintModes,
+        constraint: &'a ConstraintModes<'_>,
         rigid: &RigidBodyModes,
     ) -> Result<Self> {
-        let condensed = (constraint.modes.as_ref(), constraint.stiffness.as_ref());
+        let condensed = (constraint.modes.clone(), constraint.stiffness.as_ref());
         let operator = Self::uncorrected(factor, stiffness, condensed, rigid)?;
         Ok(Self { carried: Some(&constraint.carried), ..operator })
     }
@@ -105,7 +105,7 @@ impl<'a> FreeAtZero<'a> {
     pub fn uncorrected(
         factor: &'a dyn SolveOperator,
         stiffness: impl Into<Leading<'a>>,
-        (constraint_modes, schur): (MatRef<'a, f64>, MatRef<'_, f64>),
+        (constraint_modes, schur): (StaticModes<'a>, MatRef<'_, f64>),
         rigid: &RigidBodyModes,
     ) -> Result<Self> {
         let stiffness = stiffness.into();
@@ -172,7 +172,7 @@ impl ShiftInvert for FreeAtZero<'_> {
             carried.correct(loads.as_mut());
         }
         let x_b = self.schur.solve(loads.as_ref());
-        dense::add_product(block.as_mut().subrows_mut(0, n_i), 1.0, self.constraint_modes, x_b.as_ref());
+        self.constraint_modes.add_followed(block.as_mut().subrows_mut(0, n_i), 1.0, x_b.as_ref());
         block.subrows_mut(n_i, n_b).copy_from(&x_b);
     }
 

@@ -3,6 +3,7 @@
 use faer::Mat;
 
 use super::free_at_zero::FreeAtZero;
+use super::static_modes::StaticModes;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::Cholesky;
@@ -15,7 +16,7 @@ pub struct FreeStatics<'a> {
     /// K without the dofs that are held, n_I + n_F.
     stiffness: Leading<'a>,
     /// −K_II⁻¹ K_IF, n_I × n_F, as a solve leaves it.
-    constraint_modes: Mat<f64>,
+    constraint_modes: StaticModes<'static>,
     /// S = K_FF + K_FI Ψ_S, n_F × n_F.
     schur: Mat<f64>,
 }
@@ -32,6 +33,7 @@ impl<'a> FreeStatics<'a> {
         let psi = faer::concat![[constraint_modes.as_ref()], [identity.as_ref()]];
         let mut schur = dense::gram(psi.as_ref(), product(stiffness, psi.as_ref()).as_ref());
         dense::symmetrise(&mut schur);
+        let constraint_modes = StaticModes::stored(constraint_modes);
         Self { factor, stiffness, constraint_modes, schur }
     }
 
@@ -40,7 +42,7 @@ impl<'a> FreeStatics<'a> {
     /// # Errors
     /// S has more zero-energy motions than there are rigid-body motions that pass: a mechanism.
     pub fn operator(&'a self, rigid: &RigidBodyModes) -> Result<FreeAtZero<'a>> {
-        let condensed = (self.constraint_modes.as_ref(), self.schur.as_ref());
+        let condensed = (self.constraint_modes.clone(), self.schur.as_ref());
         FreeAtZero::uncorrected(self.factor, self.stiffness, condensed, rigid)
     }
 }

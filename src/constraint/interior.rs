@@ -3,9 +3,10 @@
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, Storage, few_digits};
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, or_lack_of_rank, shift_of_factor};
+use crate::rigid::{InterfaceRank, RigidBodyModes, or_lack_of_rank, shift_of_factor};
 
-/// L Lᵀ of K_II, or of K − σM below the spectrum where no interface holds a free component.
+/// L Lᵀ of K_II, or of (K − σM)_II below the spectrum where no interface holds a free component; `rank` is absent where the interface leaves
+/// rigid-body motions free.
 ///
 /// # Errors
 /// K_II is not definite; the message names the true reason first: the digits of the data, then an interface that leaves a
@@ -14,9 +15,9 @@ pub fn interior_factor<'a>(
     partition: &'a Partition,
     analysis: &'a Analysis,
     rigid: &RigidBodyModes,
-    storage: Storage,
+    (storage, rank): (Storage, Option<InterfaceRank>),
 ) -> Result<Cholesky<'a>> {
-    let sigma = shift_of_factor(partition, rigid);
+    let sigma = shift_of_factor(partition, rigid, rank);
     let factor = Cholesky::kept(analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof));
     factor.map_err(|error| refused(error, analysis, partition, rigid))
 }

@@ -61,7 +61,7 @@ pub struct LooseMotions {
 /// A motion with neither energy nor mass; a dense eigenproblem that does not converge.
 pub fn with_mechanisms(
     partition: &Partition,
-    constraint: &ConstraintModes,
+    constraint: &ConstraintModes<'_>,
     rigid: RigidBodyModes,
 ) -> Result<(RigidBodyModes, LooseMotions)> {
     let soft = soft_motions(partition, constraint, &rigid)?;
@@ -114,7 +114,7 @@ fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<boo
 /// Mechanisms by few digits are believed where what rounding makes is nothing compared with the softest motion that is none.
 fn refuse_uncounted_mechanisms(
     partition: &Partition,
-    constraint: &ConstraintModes,
+    constraint: &ConstraintModes<'_>,
     (rigid, found): (&RigidBodyModes, &LooseMotions),
 ) -> Result<()> {
     if found.mechanisms.is_empty() || !partition.has_few_digits() {
@@ -129,14 +129,14 @@ fn refuse_uncounted_mechanisms(
 }
 
 /// V for every eigenvector of S that is soft and no rigid-body motion; columns of unit length in the scales of the dofs.
-fn soft_motions(partition: &Partition, constraint: &ConstraintModes, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
+fn soft_motions(partition: &Partition, constraint: &ConstraintModes<'_>, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
     let (values, z) = interface_motions(partition, constraint, rigid)?;
     let n_soft = n_soft(partition, constraint, &values);
     Ok(followed(constraint, z.as_ref().subcols(0, n_soft)))
 }
 
 /// V for the first eigenvector of S that is not soft; no column where all are.
-fn stiffer_motion(partition: &Partition, constraint: &ConstraintModes, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
+fn stiffer_motion(partition: &Partition, constraint: &ConstraintModes<'_>, rigid: &RigidBodyModes) -> Result<Mat<f64>> {
     let (values, z) = interface_motions(partition, constraint, rigid)?;
     let n_soft = n_soft(partition, constraint, &values);
     Ok(followed(constraint, z.as_ref().subcols(n_soft, (values.len() - n_soft).min(1))))
@@ -145,7 +145,7 @@ fn stiffer_motion(partition: &Partition, constraint: &ConstraintModes, rigid: &R
 /// Eigenvalues of S with its rigid-body motions lifted, in the scales of the interface dofs, ascending, and its eigenvectors.
 fn interface_motions(
     partition: &Partition,
-    constraint: &ConstraintModes,
+    constraint: &ConstraintModes<'_>,
     rigid: &RigidBodyModes,
 ) -> Result<(Vec<f64>, Mat<f64>)> {
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
@@ -161,17 +161,17 @@ fn interface_motions(
     Ok((values, Mat::from_fn(n_b, n_b, |i, j| scale[i] * vectors[(i, j)])))
 }
 
-fn n_soft(partition: &Partition, constraint: &ConstraintModes, values: &[f64]) -> usize {
+fn n_soft(partition: &Partition, constraint: &ConstraintModes<'_>, values: &[f64]) -> usize {
     let by_digits =
         SOFT_BY_DIGITS * partition.precision.stiffness.share * constraint.cancellation * partition.cancellation;
     values.iter().take_while(|value| **value <= SOFT.max(by_digits)).count()
 }
 
 /// [Ψ_S Z; Z].
-fn followed(constraint: &ConstraintModes, z: MatRef<'_, f64>) -> Mat<f64> {
-    let (n_i, n_b) = (constraint.modes.nrows(), z.nrows());
+fn followed(constraint: &ConstraintModes<'_>, z: MatRef<'_, f64>) -> Mat<f64> {
+    let (n_i, n_b) = (constraint.modes.n_internal(), z.nrows());
     let mut motions = Mat::zeros(n_i + n_b, z.ncols());
-    motions.as_mut().subrows_mut(0, n_i).copy_from(dense::product(constraint.modes.as_ref(), z));
+    motions.as_mut().subrows_mut(0, n_i).copy_from(constraint.modes.follow(z));
     motions.as_mut().subrows_mut(n_i, n_b).copy_from(z);
     motions
 }

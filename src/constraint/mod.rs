@@ -6,6 +6,8 @@
 //! K⁺    n' × n'     of self-equilibrated loads, from the factor of K_II and S
 //! ```
 
+mod attached;
+mod attachment;
 mod constrained;
 mod constraint_modes;
 mod free_at_zero;
@@ -14,12 +16,15 @@ mod interior;
 mod mechanism;
 mod rigid_correction;
 mod schur_complement;
+mod static_modes;
 
+pub use attachment::Attachment;
 pub use constrained::{Constrained, constrained};
-pub use constraint_modes::{ConstraintModes, constraint_modes};
+pub use constraint_modes::{ConstraintModes, constraint_modes, constraint_modes_in};
 pub use free_at_zero::{FreeAtZero, RefinedAtZero};
 pub use free_statics::FreeStatics;
 pub use interior::interior_factor;
 pub use mechanism::{Loose, LooseMotions, with_mechanisms};
 pub(crate) use rigid_correction::left_inverse;
 pub use rigid_correction::{Carried, RigidError, rigid_error};
+pub use static_modes::StaticModes;

@@ -3,6 +3,7 @@
 use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, MatMut, MatRef};
 
+use super::static_modes::StaticModes;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
 use crate::rigid::scales;
@@ -42,9 +43,9 @@ impl Carried {
 }
 
 /// U_I − Ψ_S U_B, n_I × n_r.
-pub(super) fn defect(modes: MatRef<'_, f64>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Mat<f64> {
+pub(super) fn defect(modes: &StaticModes<'_>, u_i: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Mat<f64> {
     let mut defect = u_i.to_owned();
-    dense::add_product(defect.as_mut(), -1.0, modes, u_b);
+    modes.add_followed(defect.as_mut(), -1.0, u_b);
     defect
 }
 
@@ -62,7 +63,7 @@ pub struct RigidError {
 /// Rounding of a dof is relative to its own scale, and a motion may be small in the dofs of the largest one. A mode that moves
 /// interface dofs alone, that of a free mass at the interface, is measured by those; modes of the matrices have rounding
 /// inside instead of nothing.
-pub fn rigid_error(partition: &Partition, modes: MatRef<'_, f64>, u: MatRef<'_, f64>) -> RigidError {
+pub fn rigid_error(partition: &Partition, modes: &StaticModes<'_>, u: MatRef<'_, f64>) -> RigidError {
     let (u_i, u_b) = u.split_at_row(partition.n_internal);
     let defect = defect(modes, u_i, u_b);
     let scale = scales(partition);
@@ -94,12 +95,18 @@ const LEAST_WEIGHT: f64 = 1e-6;
 /// little inside is nearly right and takes little of the correction: on a long part that two neighbouring nodes hold, the one that no
 /// internal dof touches would otherwise take the error of the other one, times the length of the part over their distance.
 pub(crate) fn left_inverse(partition: &Partition, modes: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Mat<f64> {
-    let (n_i, n_b) = (partition.n_internal, u_b.nrows());
     let stiffness = diagonal(&partition.stiffness);
-    let (inner, outer) = stiffness.split_at(n_i);
+    let (inner, outer) = stiffness.split_at(partition.n_internal);
+    let inside = |j: usize| -> f64 { dense::column(modes, j).iter().zip(inner).map(|(psi, k)| psi * psi * k).sum() };
+    let inside: Vec<f64> = (0..u_b.nrows()).map(inside).collect();
+    left_inverse_by(&inside, outer, u_b)
+}
+
+/// The matrix of [`left_inverse`] by the energy that each dof has inside and by its stiffness.
+pub(super) fn left_inverse_by(inside: &[f64], outer: &[f64], u_b: MatRef<'_, f64>) -> Mat<f64> {
+    let n_b = u_b.nrows();
     let weight = |j: usize| {
-        let inside: f64 = dense::column(modes, j).iter().zip(inner).map(|(psi, k)| psi * psi * k).sum();
-        let weight = (inside + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).sqrt();
+        let weight = (inside[j] + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).sqrt();
         if weight > 0.0 { weight } else { 1.0 }
     };
     let weight: Vec<f64> = (0..n_b).map(weight).collect();

@@ -22,11 +22,13 @@
 //!
 //! K of a preloaded state answers rotations with its internal forces as they turn; `preload` compares them, and nothing is mended.
 //!
-//! Local frames at a few nodes of a held body look like supports to K. A mass that couples nodes shows them.
+//! Local frames at a few nodes look like supports to K, and `local_frames` tells them apart where no support is near. Next to one a mass
+//! that couples nodes shows them.
 
 mod doubt;
 mod free;
 mod judgement;
+mod local_frames;
 mod mass;
 mod mended;
 mod motions;
@@ -66,6 +68,7 @@ pub fn compared(model: Model, held: &[Direction], tied: &HashSet<i64>) -> Result
     };
     let motions = Motions::of(&model, &sites);
     let nodes = Nodes::of_model(&motions);
+    local_frames::refuse_local_frames(&motions, &nodes)?;
     if let Some(forces) = &model.internal_forces {
         preload::confirmed(&motions, &nodes, forces, tied)?;
         let mut findings = model.findings.clone();

@@ -37,11 +37,10 @@ impl Nodes {
     pub(super) fn of_model(motions: &Motions<'_>) -> Self {
         let of_row = node_of_row(motions.sites.len(), motions.model.dofs.as_deref());
         let n_nodes = of_row.iter().max().map_or(0, |max| *max as usize + 1);
-        let share = |row: usize| TOUCHED.max(NOTICEABLE * motions.rounding_at(row));
         let force = |row: usize| (0..FIRST_ROTATION).fold(0.0, |max: f64, j| max.max(motions.forces[(row, j)].abs()));
         let mut is_touched = vec![false; n_nodes];
         for (row, node) in of_row.iter().enumerate() {
-            is_touched[*node as usize] |= force(row) > share(row) * motions.scale_of(row);
+            is_touched[*node as usize] |= force(row) > noticeable_force(motions, row);
         }
         let lacks = lacking(motions, &of_row, n_nodes);
         let mut near = lacks.clone();
@@ -83,6 +82,11 @@ impl Nodes {
     pub(super) fn is_near_lack(&self, node: usize) -> bool {
         self.near[node] != 0
     }
+}
+
+/// A force of a translation at a row above which something holds it.
+pub(super) fn noticeable_force(motions: &Motions<'_>, row: usize) -> f64 {
+    TOUCHED.max(NOTICEABLE * motions.rounding_at(row)) * motions.scale_of(row)
 }
 
 /// The rotations of which each node lacks a part.

@@ -6,7 +6,6 @@
 //! M̂ Φ diag(2ζω) Φᵀ M̂               modal
 //! ```
 
-use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
 use crate::dense;
@@ -107,13 +106,10 @@ fn elastic_modes(reduced: Reduced<'_>) -> Result<(Vec<f64>, Mat<f64>)> {
 
 /// P X: what rounding has left of rigid-body motion goes.
 fn without_rigid_motion(reduced: Reduced<'_>, mut x: Mat<f64>) -> Mat<f64> {
-    let Reduced { mass: m, motions: u, .. } = reduced;
-    if u.ncols() > 0 {
-        let momenta = dense::product(m, u);
-        let inertia = dense::gram(u, momenta.as_ref());
-        let shares = inertia.partial_piv_lu().solve(dense::gram(momenta.as_ref(), x.as_ref()));
-        dense::add_product(x.as_mut(), -1.0, u, shares.as_ref());
-    }
+    // In a basis of their own: motions about a far origin are nearly one, and next to a heavy mass rotations about it hardly count.
+    let motions = dense::orthonormal(reduced.motions, reduced.mass);
+    let shares = dense::gram(dense::product(reduced.mass, motions.as_ref()).as_ref(), x.as_ref());
+    dense::add_product(x.as_mut(), -1.0, motions.as_ref(), shares.as_ref());
     x
 }
 

@@ -4,7 +4,7 @@
 //! max_i |TᵀCT U|_i / (|T|ᵀ|C||T||U|)_i      force of a rigid-body motion at a dof, relative to the terms that it is the sum of, also
 //!                                           those that cancel inside a patch; Cᵀ likewise
 //! ```
-//! Rounding of the data leaves of such a force what it leaves of K U.
+//! Rounding of the data leaves of such a force what it leaves of K U, and the way that C was made more.
 
 use faer::Mat;
 use supel_runtime::{MOTIONS, MatrixKind};
@@ -18,6 +18,10 @@ use crate::sparse::{product, product_and_terms};
 
 /// Share of its terms at which a force is none of rounding, whatever the digits of the data.
 const LARGEST_ROUNDING: f64 = 1e-3;
+/// Share of its terms up to which a force is none of a damper to the ground. Damping that a program makes of modes, M Φ diag(2ζω) Φᵀ M, has
+/// the errors of these: rigid-body motions are orthogonal to them to ε times a ratio of eigenvalues, and the entries of a row cancel next to
+/// that. Beams leave 2·10⁻¹¹, solids 10⁻¹³. As a force of translation in K has to exceed this before it is one of a support.
+const MADE_OF_MODES: f64 = 1e-9;
 
 /// Refuses damping of a free component that resists rigid-body motion, unless the job says that it is meant. Motions of mechanisms may
 /// be damped.
@@ -39,7 +43,7 @@ pub fn refuse_resistance(job: &Job, partition: &Partition, rigid: &RigidBodyMode
     // What K leaves tells how well the motions are known, and what its digits are worth.
     let (forces_of_k, terms) = product_and_terms(&partition.stiffness, u.as_ref());
     let known = Forces { forces: forces_of_k, terms }.worst().0;
-    let limit = (NOISE_FACTOR * known.max(rounding)).min(LARGEST_ROUNDING);
+    let limit = (NOISE_FACTOR * known.max(rounding)).clamp(MADE_OF_MODES, LARGEST_ROUNDING);
     let (share, [dof, motion]) = forces.worst();
     if share <= limit {
         return Ok(());

@@ -27,7 +27,7 @@ pub(crate) fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef
     let (k, m) = (scaled_by(k, &scale), scaled_by(m, &scale));
     let motions = Mat::from_fn(r, u.ncols(), |i, j| u[(i, j)] / scale[i]);
     let taken = held_out(m.as_ref(), motions.as_ref());
-    let taken = dense::orthonormal(taken.as_ref(), Mat::<f64>::identity(r, r).as_ref())?;
+    let taken = dense::orthonormal(taken.as_ref(), Mat::<f64>::identity(r, r).as_ref());
     let all = taken.qr().compute_Q();
     let z = all.as_ref().subcols(taken.ncols(), r - taken.ncols());
     let projected = |a: &Mat<f64>| {

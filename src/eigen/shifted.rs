@@ -9,7 +9,7 @@ use super::operator::Factored;
 use super::problem::Wanted;
 use super::{ModalProblem, ModeError, ModeRequest, Modes, elastic_modes, zero};
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, Cholesky, few_digits, whole_count};
+use crate::factor::{Analysis, Cholesky, boundary_of, few_digits, whole_count};
 use crate::job::Eigensolver;
 use crate::random::SEED;
 
@@ -132,11 +132,12 @@ fn refuse_negative(
         lambda >= 0.0 || zero::is_zero(lambda, error.zero_level) || zero::is_negligible(lambda, first_elastic)
     };
     let mut pairs = modes.lambda.iter().zip(&modes.errors);
-    let Some((energy, error)) = pairs.find(|(lambda, error)| !is_noise(**lambda, error)) else { return Ok(()) };
+    let Some((energy, _)) = pairs.find(|(lambda, error)| !is_noise(**lambda, error)) else { return Ok(()) };
     match whole_count(analysis, problem.pencil(), 0.5 * energy)?.below {
         0 => Ok(()),
         count => {
-            let error = Error::NegativeRigidEnergy { energy: *energy, noise: error.zero_level, count };
+            // Which motion it belongs to nobody has asked: that of a strut which buckles is no rigid-body motion.
+            let error = Error::IndefiniteStiffness { count, boundary: boundary_of(analysis, problem.stiffness) };
             Err(few_digits(error, analysis, problem.stiffness, problem.precision.stiffness))
         }
     }
@@ -199,7 +200,7 @@ mod tests {
         stiffnesses[0] = -1e-6;
         let mass = diagonal_matrix(&[1.0; 30]);
         with_lowest(&diagonal_matrix(&stiffnesses), &mass, |found| {
-            assert!(matches!(found, Err(Error::NegativeRigidEnergy { count: 1, .. })), "{found:?}");
+            assert!(matches!(found, Err(Error::IndefiniteStiffness { count: 1, .. })), "{found:?}");
         });
     }
 

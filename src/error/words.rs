@@ -90,6 +90,15 @@ pub(super) fn listed(names: &[String]) -> String {
     }
 }
 
+/// What can follow the colon after the name of a file.
+pub(super) fn named_matrices(names: &[String]) -> String {
+    if names.is_empty() {
+        "the file has one matrix without a name – leave the colon and the name out".to_owned()
+    } else {
+        format!("expected one of {} – give one of these after the colon", listed(names))
+    }
+}
+
 /// Keys in quotation marks.
 pub(super) fn quoted(keys: &[&str]) -> String {
     let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
@@ -104,6 +113,11 @@ pub(super) fn column_words(column: Option<usize>) -> String {
 /// The place of a line in a file, where it has lines.
 pub(super) fn at_line(line: Option<u64>) -> String {
     line.map_or_else(String::new, |line| format!(":{line}"))
+}
+
+/// A file before what is wrong with it, where there is one.
+pub(super) fn of_file(path: Option<&Path>) -> String {
+    path.map_or_else(String::new, |path| format!("{}: ", path.display()))
 }
 
 /// The parts of a forecast, the largest first, and what makes that one smaller.

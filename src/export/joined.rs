@@ -3,11 +3,11 @@
 //! The components leave out modes from some frequency on, and a second reduction cannot have back what they left out. So the job keeps
 //! modes up to the lowest of these frequencies and no further.
 
-use supel_runtime::{Flag, Matrix, Superelement};
+use supel_runtime::{Direction, Flag, Matrix, Superelement};
 use toml::Value;
 
 use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
-use super::model_job::{held_rotations, method, n_modes};
+use super::model_job::{MOVING_ROWS, held_rotations, method, n_modes};
 use super::stiffness_digits::{FEWEST_DIGITS, digits};
 use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members, Omitted};
 use crate::dense::unpacked;
@@ -109,7 +109,7 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> JobText
     held.dedup();
     let (method, relief) = method_of_whole(assembly);
     let band = band(assembly);
-    let n_still = if method == "herting" { model.rigid.ncols() } else { model.n_interface() };
+    let n_still = if matches!(method, "herting" | "rubin") { model.rigid.ncols() } else { model.n_interface() };
     let n_left = (model.rows.len() - model.n_fixed()).saturating_sub(n_still);
     let count = superelements().map(n_modes).sum::<usize>().min(n_left);
     let modes = match band {
@@ -118,9 +118,13 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> JobText
     };
     let method = if modes.is_none() { "guyan" } else { method };
     let loads = model.load_names.iter();
+    let moves = superelements().any(Superelement::has_rigid_amplitudes);
+    let mut remarks = remarks(assembly, &band);
+    remarks.extend(moves.then(|| MOVING_ROWS.to_owned()));
+    let selection = |own: &JoinedSelection| if moves { selection_of_rows(own, model) } else { selection(own) };
     JobText {
-        remarks: remarks(assembly, &band),
-        map: if model.nodes.is_empty() { Map::Rows } else { Map::Nodes },
+        remarks,
+        map: if model.nodes.is_empty() || moves { Map::Rows } else { Map::Nodes },
         units: superelements().find_map(|superelement| superelement.metadata().units.clone()),
         held_rotations: held,
         digits,
@@ -134,7 +138,7 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> JobText
     }
 }
 
-/// Herting's method where all components are in its coordinates, Guyan's where none has modes; modes with the interface held otherwise.
+/// Herting's method where all components are in its coordinates, Rubin's where an interface leaves rigid-body motion free, Guyan's where none has modes; modes with the interface held otherwise.
 fn method_of_whole(assembly: &Assembly) -> (&'static str, Relief) {
     let methods: Vec<(&str, Relief)> =
         assembly.components.iter().map(|component| method(&component.superelement)).collect();
@@ -143,7 +147,9 @@ fn method_of_whole(assembly: &Assembly) -> (&'static str, Relief) {
     let with_modes: Vec<&str> = methods.iter().map(|(method, _)| *method).filter(|method| *method != "guyan").collect();
     match with_modes.first() {
         None => ("guyan", relief),
-        Some(_) if with_modes.iter().all(|method| *method == "herting") => ("herting", Relief::NotAsked),
+        Some(_) if with_modes.iter().all(|method| matches!(*method, "herting" | "rubin")) => {
+            (if with_modes.contains(&"rubin") { "rubin" } else { "herting" }, Relief::NotAsked)
+        }
         Some(_) => ("craig-bampton", relief),
     }
 }
@@ -202,6 +208,21 @@ fn selection(selection: &JoinedSelection) -> Selection {
             Selection { name, nodes: Value::from(labels), dofs }
         }
     }
+}
+
+/// The rows of a selection.
+fn selection_of_rows(selection: &JoinedSelection, model: &JoinedModel) -> Selection {
+    let has = |(node, direction): (usize, Direction)| match &selection.members {
+        Members::Nodes { nodes, dofs } => {
+            nodes.contains(&node) && dofs.as_ref().is_none_or(|dofs| dofs.contains(&direction))
+        }
+        Members::Rows(_) => false,
+    };
+    let own: Vec<usize> = match &selection.members {
+        Members::Rows(own) => own.clone(),
+        Members::Nodes { .. } => (0..model.rows.len()).filter(|row| model.rows[*row].at.is_some_and(has)).collect(),
+    };
+    Selection { name: selection.name.clone(), nodes: rows(own), dofs: None }
 }
 
 /// The label of a node.

@@ -1,7 +1,8 @@
 //! Matrix Market: K̂ and M̂ with the dof map and the nodes, as `supel reduce` reads a model.
 //!
 //! Modal amplitudes are scalar dofs: rows of the dof map without a node, which no rigid-body motion moves, because Ψ carries
-//! rigid-body motion by the interface alone (24). A superelement whose interface has no positions is one of bare rows and
+//! rigid-body motion by the interface alone (24). Where rigid-body modes are coordinates beside an interface they do move, and the job
+//! has rows only. A superelement whose interface has no positions is one of bare rows and
 //! leaves without map and nodes. Numbers have seventeen digits, from which every double comes back to the bit.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,6 +12,7 @@ use supel_runtime::{Coordinate, InterfaceNode, Matrix, NamedMatrix, Quantity, Su
 
 use super::format::{ExportedFile, Format};
 use super::joined::{Joined, label, packed};
+use super::load_transformation::transformations;
 use super::model_job::job;
 use super::names::Names;
 use crate::assembly::JoinedNode;
@@ -33,10 +35,10 @@ impl Format for MatrixMarket {
         let rows = rows(superelement, &labels);
         let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, matrices, .. } =
             superelement.tensors();
-        let mut files = vec![
-            file("stiffness.mtx", "stiffness", symmetric(stiffness, &rows)),
-            file("mass.mtx", "mass", symmetric(mass, &rows)),
-        ];
+        let mut files = vec![file("stiffness.mtx", "stiffness", symmetric(stiffness, &rows))];
+        if mass.rows() > 0 {
+            files.push(file("mass.mtx", "mass", symmetric(mass, &rows)));
+        }
         let further = side_by_side(matrices);
         let arrays = [
             ("damping.mtx", "damping", damping.as_ref()),
@@ -48,6 +50,8 @@ impl Format for MatrixMarket {
         ];
         let arrays = arrays.into_iter().filter_map(|(ending, content, matrix)| Some((ending, content, matrix?)));
         files.extend(arrays.map(|(ending, content, matrix)| file(ending, content, array(matrix))));
+        let transformations = transformations(superelement).into_iter();
+        files.extend(transformations.map(|own| file(own.ending, own.content, array(&own.matrix))));
         files.extend(recovery.as_ref().map(|recovery| {
             let dofs = recovery.dofs().iter().map(|dof| (Some(dof.node), dof.direction.to_string()));
             file("recovery-dofs.csv", "node and direction of each row of the recovery", dof_map(dofs))

@@ -6,6 +6,7 @@
 mod format;
 mod job_text;
 mod joined;
+mod load_transformation;
 mod matrix_market;
 mod model_job;
 mod names;

@@ -14,6 +14,9 @@ use crate::error::Result;
 /// internal forces of a preloaded component are not in its file.
 pub(super) fn job(superelement: &Superelement, labels: &[i64]) -> Result<Option<JobText>> {
     let tensors = superelement.tensors();
+    if superelement.metadata().flags.contains(&Flag::StiffnessOnly) {
+        return Ok(None);
+    }
     let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
     let digits = digits(k.as_ref(), m.as_ref(), u.as_ref())?;
     let is_rigid = superelement.n_rigid() >= superelement.n_coordinates();
@@ -26,13 +29,14 @@ pub(super) fn job(superelement: &Superelement, labels: &[i64]) -> Result<Option<
         return Ok(None);
     }
     let (method, relief) = method(superelement);
+    let moves = superelement.has_rigid_amplitudes();
     Ok(Some(JobText {
-        remarks: Vec::new(),
-        map: if labels.is_empty() { Map::Rows } else { Map::Nodes },
+        remarks: if moves { vec![MOVING_ROWS.to_owned()] } else { Vec::new() },
+        map: if labels.is_empty() || moves { Map::Rows } else { Map::Nodes },
         units: superelement.metadata().units.clone(),
         held_rotations: held_rotations(superelement),
         digits,
-        interfaces: interfaces(superelement, labels),
+        interfaces: if moves { interfaces_of_rows(superelement) } else { interfaces(superelement, labels) },
         fixed: Vec::new(),
         loads: loads(superelement),
         method,
@@ -41,6 +45,10 @@ pub(super) fn job(superelement: &Superelement, labels: &[i64]) -> Result<Option<
         held: (method == "mixed-interface").then(|| held(superelement.metadata())),
     }))
 }
+
+/// Why a job does without map and nodes that stand next to it.
+pub(super) const MOVING_ROWS: &str =
+    "Modal amplitudes move with rigid-body motion, which the positions of nodes cannot say: the job has rows only.";
 
 /// Rotations that supports hold alone, as the job of the superelement says.
 pub(super) fn held_rotations(superelement: &Superelement) -> Vec<String> {
@@ -67,6 +75,23 @@ fn interfaces(superelement: &Superelement, labels: &[i64]) -> Vec<Selection> {
         first += n;
     }
     selections
+}
+
+/// One table of rows for each interface.
+fn interfaces_of_rows(superelement: &Superelement) -> Vec<Selection> {
+    let metadata = superelement.metadata();
+    let name_of = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { node, .. } => metadata.interface_nodes[*node].name.clone(),
+        _ => "interface".to_owned(),
+    };
+    let names: Vec<String> = metadata.coordinates[..superelement.n_interface()].iter().map(name_of).collect();
+    let mut first = 0;
+    let of_name = |name: &[String]| {
+        let own = first..first + name.len();
+        first = own.end;
+        Selection { name: name[0].clone(), nodes: rows(own), dofs: None }
+    };
+    names.chunk_by(|a, b| a == b).map(of_name).collect()
 }
 
 /// The loads; with a residual vector where the superelement has one.
@@ -126,7 +151,8 @@ pub(super) fn method(superelement: &Superelement) -> (&'static str, Relief) {
             ("craig-bampton", relief)
         }
         Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface | Method::Guyan => ("guyan", relief),
-        // A file of Rubin's method is in Herting's coordinates.
+        Method::Rubin if superelement.has_rigid_amplitudes() => ("rubin", Relief::NotAsked),
+        // Any other file of Rubin's method is in Herting's coordinates.
         Method::Herting | Method::Rubin | Method::Macneal => ("herting", Relief::NotAsked),
     }
 }

@@ -2,6 +2,7 @@
 
 use supel_runtime::{Matrix, Recovery, Superelement, Tensors};
 
+use super::load_transformation::transformations;
 use super::matrix_market::side_by_side;
 use crate::error::{Error, Result};
 
@@ -37,7 +38,7 @@ pub(super) fn matrices(superelement: &Superelement) -> Result<Vec<Named>> {
     let recovery_dofs = recovery.as_ref().map(recovery_dofs).transpose()?;
     let all = [
         ("KAA", Form::Symmetric, Some(stiffness)),
-        ("MAA", Form::Symmetric, Some(mass)),
+        ("MAA", Form::Symmetric, Some(mass).filter(|mass| mass.rows() > 0)),
         ("BAA", Form::Rectangular, damping.as_ref()),
         ("GRAVITY", Form::Rectangular, gravity.as_ref()),
         ("LOADS", Form::Rectangular, load_vectors.as_ref()),
@@ -47,7 +48,9 @@ pub(super) fn matrices(superelement: &Superelement) -> Result<Vec<Named>> {
         ("FURTHER", Form::Rectangular, further.as_ref()),
     ];
     let named = all.into_iter().filter_map(|(name, form, matrix)| Some(Named { name, form, matrix: matrix?.clone() }));
-    Ok(named.collect())
+    let transformations = transformations(superelement).into_iter();
+    let derived = transformations.map(|own| Named { name: own.name, form: Form::Rectangular, matrix: own.matrix });
+    Ok(named.chain(derived).collect())
 }
 
 /// The names, for people.

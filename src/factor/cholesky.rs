@@ -84,6 +84,22 @@ impl Cholesky<'_> {
         }
     }
 
+    /// −A_BI A_II⁻¹ F of loads on the eliminated dofs, n_B × k: what the border takes of them. The transpose of [`Self::follow_border`].
+    pub fn load_border(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
+        match &self.kept {
+            Kept::Double(numbers) => Factor::definite(self.analysis, numbers).load_border(loads),
+            Kept::Single(refined) => refined.load_border(loads),
+        }
+    }
+
+    /// What elimination has left of the border, n_B × n_B: A_BB − A_BI A_II⁻¹ A_IB, symmetric to the bit.
+    pub fn condensed(&self) -> Mat<f64> {
+        match &self.kept {
+            Kept::Double(numbers) => numbers.schur.clone(),
+            Kept::Single(refined) => refined.condensed(),
+        }
+    }
+
     /// How L is kept.
     pub fn storage(&self) -> Storage {
         match self.kept {
@@ -120,11 +136,10 @@ fn factored<T: Entry>(
     name: &dyn Fn(usize) -> String,
 ) -> Result<(Numbers<T>, f64)> {
     let not_definite = |step: usize| not_definite(analysis, matrix.pencil, name(analysis.given()[step] as usize));
-    let mut numbers = eliminate(analysis, matrix, Kind::Definite, Keep::Factor).map_err(|stop| match stop {
+    let numbers = eliminate(analysis, matrix, Kind::Definite, Keep::Factor).map_err(|stop| match stop {
         Stop::NotPositive(step) => not_definite(step),
         Stop::NoMemory => Error::OutOfMemory { what: "the factor" },
     })?;
-    numbers.schur = Mat::zeros(0, 0);
     let (ratio, step) = smallest_pivot(analysis, matrix, &numbers);
     // Rounding decides the sign of a pivot that should be zero, so a singular matrix may well get this far.
     if ratio.is_nan() || ratio <= SINGULAR {

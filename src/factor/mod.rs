@@ -34,6 +34,7 @@ pub use indefinite::{WholeCount, whole_count};
 pub use refined::Refinement;
 pub use rounding::forming_error;
 pub use solve::SolveOperator;
+pub(crate) use sturm_count::boundary_of;
 pub use sturm_count::{
     CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_below_freeing, count_negative,
     few_digits, rank,

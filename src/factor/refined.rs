@@ -123,6 +123,22 @@ impl<'a> Refined<'a> {
         x
     }
 
+    /// −A_BI A_II⁻¹ F of loads, n rows.
+    pub(super) fn load_border(&self, loads: MatRef<'_, f64>) -> Mat<f64> {
+        let (n, n_border) = (self.analysis.n(), self.analysis.n_border());
+        let mut motion = Mat::zeros(n + n_border, loads.ncols());
+        motion.as_mut().subrows_mut(0, n).copy_from(loads);
+        self.solve_in_place(motion.as_mut().subrows_mut(0, n));
+        -self.product(motion.as_ref()).subrows(n, n_border)
+    }
+
+    /// What elimination has left of the border.
+    pub(super) fn condensed(&self) -> Mat<f64> {
+        let border = &self.scale[self.analysis.n()..];
+        let schur = &self.numbers.schur;
+        Mat::from_fn(schur.nrows(), schur.ncols(), |i, j| schur[(i, j)] / (border[i] * border[j]))
+    }
+
     /// What the solves so far have taken.
     ///
     /// # Errors

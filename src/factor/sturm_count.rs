@@ -123,7 +123,7 @@ fn counted<'a>(
 
 /// The boundary that a definite matrix is factored under: its interface is held where it is the border of the elimination, or left
 /// out of the block.
-pub(super) fn boundary_of(analysis: &Analysis, stiffness: Leading<'_>) -> &'static str {
+pub(crate) fn boundary_of(analysis: &Analysis, stiffness: Leading<'_>) -> &'static str {
     if analysis.n_border() > 0 || !stiffness.is_whole() { "held" } else { "free" }
 }
 

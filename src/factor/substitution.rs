@@ -104,6 +104,21 @@ impl<'a, T: Entry> Factor<'a, T> {
         x
     }
 
+    /// −A_BI A_II⁻¹ F of loads, n rows: the forward half alone.
+    pub(super) fn load_border(self, loads: MatRef<'_, f64>) -> Mat<f64> {
+        const W: usize = 8;
+        let mut gathered = Mat::zeros(self.analysis.n_border(), loads.ncols());
+        for start in (0..loads.ncols()).step_by(W) {
+            let width = W.min(loads.ncols() - start);
+            let mut rows = pack::<W>(loads.subcols(start, width), |step| self.analysis.given()[step] as usize);
+            let mut border = vec![[0.0; W]; self.analysis.n_border()];
+            self.forward(&mut rows, &mut border);
+            let mut tile = gathered.as_mut().subcols_mut(start, width);
+            tile.copy_from(Mat::from_fn(border.len(), width, |i, j| border[i][j]));
+        }
+        gathered
+    }
+
     /// X ← A⁻¹ X, n + n_B rows; `at_border` solves with the Schur complement.
     pub(super) fn solve_with_border(self, mut block: MatMut<'_, f64>, at_border: impl Fn(MatMut<'_, f64>)) {
         const W: usize = 8;

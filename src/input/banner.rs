@@ -100,7 +100,7 @@ impl<'a> HeadReader<'a> {
         };
         let symmetries: &[&str] = match self.role {
             MatrixRole::Stiffness | MatrixRole::Mass => &["symmetric", "general"],
-            MatrixRole::Further => &["symmetric", "general", "skew-symmetric"],
+            MatrixRole::Further | MatrixRole::Conversion => &["symmetric", "general", "skew-symmetric"],
         };
         let supported: [(&str, &[&str]); 4] =
             [(object, &["matrix"]), (format, &["coordinate"]), (field, &["real", "integer"]), (symmetry, symmetries)];
@@ -110,8 +110,7 @@ impl<'a> HeadReader<'a> {
         Ok(Some(match (symmetry, self.role) {
             ("symmetric", _) => Declared::Symmetric,
             ("skew-symmetric", _) => Declared::Skew,
-            (_, MatrixRole::Further) => Declared::Whole,
-            _ => Declared::General,
+            (_, role) => role.undeclared(),
         }))
     }
 

@@ -123,7 +123,8 @@ fn fill(source: &mut Source, block: &mut Vec<u8>, block_bytes: usize) -> std::io
     Ok(block.len() - before)
 }
 
-fn count_lines(text: &[u8]) -> u64 {
+/// Line ends in a text.
+pub(super) fn count_lines(text: &[u8]) -> u64 {
     // Sums of a byte each are what the vector units count in.
     text.chunks(255).map(|part| u64::from(part.iter().map(|&byte| u8::from(byte == b'\n')).sum::<u8>())).sum()
 }

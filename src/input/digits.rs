@@ -35,6 +35,7 @@ use super::exact::{MAX_EXACT_DIGITS, is_exact};
 use super::single_precision::{SINGLE_DIGITS, Single, single_precision};
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT, SAMPLE, Written};
 use crate::number::{counted, decimals};
+use crate::sparse::TripletBlocks;
 
 /// Digits that any double needs at most.
 const DOUBLE_DIGITS: u32 = 17;
@@ -92,7 +93,6 @@ impl Digits {
     }
 
     /// Of values that are stored in a type of so many digits.
-    #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "text has no types"))]
     pub(super) fn at_most(self, stored: u32) -> Self {
         Self { significant: self.significant.min(stored), ..self }
     }
@@ -103,6 +103,15 @@ impl Digits {
             (Some(_), DigitsBy::Values) => DOUBLE_DIGITS,
             _ => self.significant,
         }
+    }
+
+    /// Half a unit of the last digit, relative to each value, and half a unit of the last decimal.
+    pub fn half_a_unit(self) -> [f64; 2] {
+        let relative = match self.of_each_value() {
+            digits if digits < 16 => 0.5 * 10f64.powi(1 - digits as i32),
+            _ => f64::EPSILON,
+        };
+        [relative, self.decimals.map_or(0.0, |decimals| 0.5 * 10f64.powi(-decimals))]
     }
 
     /// Sixteen digits are all that a number in double precision has.
@@ -140,7 +149,25 @@ impl Digits {
 ///
 /// Looks at about 2000 values spread over the slice; zeros do not count.
 pub fn digits_of(values: &[f64]) -> Digits {
-    let counted = spread(values).filter(|value| value.is_finite() && *value != 0.0);
+    digits_of_sample(spread(values.len()).map(|at| values[at]))
+}
+
+/// [`digits_of`] the values of entries in blocks.
+pub(super) fn digits_of_blocks(entries: &TripletBlocks) -> Digits {
+    let mut blocks = entries.blocks.iter();
+    let (mut block, mut start): (&[f64], usize) = (&[], 0);
+    // Positions rise, so that each block is gone into once.
+    digits_of_sample(spread(entries.len()).map(|at| {
+        while at - start >= block.len() {
+            start += block.len();
+            block = blocks.next().map_or(&[], |next| &next.values);
+        }
+        block[at - start]
+    }))
+}
+
+fn digits_of_sample(values: impl Iterator<Item = f64>) -> Digits {
+    let counted = values.filter(|value| value.is_finite() && *value != 0.0);
     let sample: Vec<Sampled> = counted.map(Sampled::of).collect();
     if sample.is_empty() {
         return Digits::DOUBLE;
@@ -165,16 +192,18 @@ pub fn digits_of(values: &[f64]) -> Digits {
 }
 
 /// How many of the values are of one size, at most. Equal numbers round equally.
-pub(super) fn most_alike(values: &[f64]) -> usize {
-    let mut sizes: Vec<u64> = values.iter().filter(|value| **value != 0.0).map(|value| value.abs().to_bits()).collect();
+pub(super) fn most_alike(entries: &TripletBlocks) -> usize {
+    let mut sizes: Vec<u64> = Vec::with_capacity(entries.len());
+    let values = entries.blocks.iter().flat_map(|block| &block.values);
+    sizes.extend(values.filter(|value| **value != 0.0).map(|value| value.abs().to_bits()));
     sizes.par_sort_unstable();
     sizes.chunk_by(|a, b| a == b).map(<[_]>::len).max().unwrap_or(0)
 }
 
-/// Equally spaced values from the first to near the last.
-fn spread(values: &[f64]) -> impl Iterator<Item = f64> {
-    let n_sampled = values.len().min(SAMPLE);
-    (0..n_sampled).map(move |k| values[(k as u128 * values.len() as u128 / n_sampled as u128) as usize])
+/// Equally spaced positions of so many values, from the first to near the last.
+fn spread(n_values: usize) -> impl Iterator<Item = usize> {
+    let n_sampled = n_values.min(SAMPLE);
+    (0..n_sampled).map(move |k| (k as u128 * n_values as u128 / n_sampled as u128) as usize)
 }
 
 /// Different values that short numbers are not.

@@ -36,9 +36,7 @@ impl DofMapFormat for DofText {
 fn read(path: &Path, n: usize) -> Result<ReadDofs> {
     let first = open_first_line(path, EXPECTED)?;
     let is_table = first.text.contains(|c: char| c.is_alphabetic() || matches!(c, ',' | ';' | '\t'));
-    let read = if is_table { read_table(path, first, n)? } else { read_lines(path, first, n)? };
-    check_repeated(path, &read.dofs)?;
-    Ok(read)
+    if is_table { read_table(path, first, n) } else { read_lines(path, first, n) }
 }
 
 /// Three or six directions at each node, node by node, where the counts fit exactly.
@@ -81,7 +79,7 @@ pub(super) fn check_nodes(dofs: &[Option<Dof>], path: &Path, nodes: &Nodes, node
 }
 
 fn read_lines(path: &Path, mut first: FirstLine, n: usize) -> Result<ReadDofs> {
-    let mut read = ReadDofs { dofs: Vec::new(), n_rows: 0, base: DirectionBase::One };
+    let mut read = ReadDofs { dofs: Vec::new(), n_rows: 0, base: DirectionBase::One, local_directions: None };
     read.take(parse_line(path, first.line, &first.text)?, n);
     let mut line = first.line;
     let mut bytes = Vec::new();
@@ -170,7 +168,7 @@ fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
         return Err(direction_error(path, line, node, &text, expected));
     }
     let dofs = rows.iter().map(|(node, typed)| Some(Dof { node: (*node)?, direction: typed.direction(base)? }));
-    Ok(ReadDofs { dofs: dofs.collect(), n_rows, base })
+    Ok(ReadDofs { dofs: dofs.collect(), n_rows, base, local_directions: None })
 }
 
 /// The node of a row, which a scalar dof must not have.
@@ -232,7 +230,7 @@ fn numbered(number: u8, base: DirectionBase) -> Option<Direction> {
     Direction::ALL.get(usize::from(index)).copied()
 }
 
-fn named(text: &str) -> Option<Direction> {
+pub(super) fn named(text: &str) -> Option<Direction> {
     /// The names of finite element programs for the six directions.
     const NAMES: [[&str; 6]; 6] = [
         ["ux", "tx", "t1", "u1", "x", "dx"],
@@ -250,7 +248,8 @@ fn direction_error(path: &Path, line: u64, node: i64, found: &str, expected: &'s
     Error::DofDirection { path: path.to_owned(), line, node, found: excerpt(found.as_bytes()), expected }
 }
 
-fn check_repeated(path: &Path, dofs: &[Option<Dof>]) -> Result<()> {
+/// Checks that no two rows are one degree of freedom.
+pub(super) fn check_repeated(path: &Path, dofs: &[Option<Dof>]) -> Result<()> {
     let mut first_rows: HashMap<Dof, usize> = HashMap::with_capacity(dofs.len());
     let repeating =
         |(row, dof): (usize, &Option<Dof>)| (*first_rows.entry((*dof)?).or_insert(row) != row).then_some(row);

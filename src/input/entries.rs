@@ -3,11 +3,10 @@
 use std::path::Path;
 
 use super::banner::{excerpt, is_comment};
+use super::blocks::count_lines;
+use super::fortran::real;
 use crate::error::Error;
 use crate::sparse::Triplets;
-
-/// The shortest line of an entry, `1 1 1` and its end.
-pub(super) const MIN_LINE_BYTES: usize = 6;
 
 /// Entries of a piece of text.
 #[derive(Debug)]
@@ -36,12 +35,8 @@ enum What {
 
 /// Parses whole lines of a matrix of order n, at most `max_entries` of them.
 pub(super) fn parse_entries(text: &[u8], n: u32, max_entries: u64) -> Result<Entries, Fault> {
-    let capacity = text.len() / (3 * MIN_LINE_BYTES) + 1;
-    let mut triplets = Triplets {
-        rows: Vec::with_capacity(capacity),
-        cols: Vec::with_capacity(capacity),
-        values: Vec::with_capacity(capacity),
-    };
+    // Blocks of entries stay as they are: none takes more room than it has lines.
+    let mut triplets = Triplets::with_capacity(count_lines(text) as usize + 1);
     let mut cursor = Cursor { text, at: 0 };
     let mut line = 0;
     loop {
@@ -154,7 +149,7 @@ impl<'a> Cursor<'a> {
             self.at = start;
         }
         let field = self.field();
-        let value = fortran_number(field);
+        let value = real(field);
         match value {
             Some(value) => {
                 self.at += field.len();
@@ -180,19 +175,4 @@ impl<'a> Cursor<'a> {
         let field = self.field();
         if field.is_empty() { "end of line".into() } else { excerpt(field) }
     }
-}
-
-/// A number, also one whose exponent is marked by D.
-pub(super) fn number(field: &[u8]) -> Option<f64> {
-    fast_float2::parse(field).ok().or_else(|| fortran_number(field))
-}
-
-/// A number whose exponent is marked by D, as Fortran writes double precision.
-fn fortran_number(field: &[u8]) -> Option<f64> {
-    const LONGEST: usize = 64;
-    if field.len() > LONGEST {
-        return None;
-    }
-    let marked: Vec<u8> = field.iter().map(|&byte| if matches!(byte, b'd' | b'D') { b'e' } else { byte }).collect();
-    fast_float2::parse(&marked).ok()
 }

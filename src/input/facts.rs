@@ -11,7 +11,7 @@ use crate::job::LoadJob;
 pub struct InputFacts {
     /// Digits and digest of K and M.
     pub matrices: [MatrixFacts; 2],
-    /// Digests of the other files by their role: `dofs`, `nodes`, `nodes_data` for what those refer to, `constraints`, `internal_forces`, `quantities` and
+    /// Digests of the other files by their role: `dofs`, `dofs_data` for what CalculiX wrote next to the map, `nodes`, `nodes_data` for what those refer to, `constraints`, `internal_forces`, `quantities` and
     /// `quantity_names`.
     pub files: BTreeMap<&'static str, String>,
     /// Digests of the files of loads by the name of the load.
@@ -22,7 +22,7 @@ pub struct InputFacts {
     pub modes: Option<String>,
     /// Remarks of the readers that are not warnings.
     pub notes: Vec<String>,
-    /// Faces of the patches whose origin is the mean of their nodes, as far as the mesh tells.
+    /// Faces of the patches, as far as the mesh tells.
     pub faces: Vec<PatchFaces>,
     /// Remarks that are warnings.
     pub warnings: Vec<Warning>,
@@ -92,17 +92,22 @@ impl InputFacts {
         Self { modes: modes.map(|modes| modes.digest.clone()), ..self }
     }
 
+    /// What is remembered of M; none where its file was not opened.
+    pub fn mass(&self) -> Option<&MatrixFacts> {
+        Some(&self.matrices[1]).filter(|mass| !mass.digest.is_empty())
+    }
+
     /// BLAKE3 of every file by its role, as the superelement keeps them.
     pub fn digests(&self) -> BTreeMap<String, &str> {
-        let [stiffness, mass] = &self.matrices;
-        let matrices = [("stiffness", stiffness.digest.as_str()), ("mass", mass.digest.as_str())];
+        let mass = self.mass().map(|mass| ("mass", mass.digest.as_str()));
+        let matrices = std::iter::once(("stiffness", self.matrices[0].digest.as_str())).chain(mass);
         let files = self.files.iter().map(|(role, digest)| (*role, digest.as_str()));
         let modes = self.modes.iter().map(|digest| ("modes", digest.as_str()));
         let files = files.chain(modes);
         let loads = self.loads.iter().map(|(name, digest)| (format!("load {name}"), digest.as_str()));
         let further = self.further.iter().map(|(name, digest)| (format!("matrix {name}"), digest.as_str()));
         let named = loads.chain(further);
-        matrices.into_iter().chain(files).map(|(role, digest)| (role.to_owned(), digest)).chain(named).collect()
+        matrices.chain(files).map(|(role, digest)| (role.to_owned(), digest)).chain(named).collect()
     }
 }
 

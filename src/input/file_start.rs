@@ -3,26 +3,33 @@
 use std::io::Read;
 use std::path::Path;
 
-use crate::error::{Error, Result};
-use crate::regular_file;
+use super::source::{Packing, Source, read_error};
+use crate::error::Result;
 
 /// Bytes from which a format is recognised.
 const HEAD: u64 = 1 << 12;
 
-/// The first bytes of a file and its name.
+/// The first bytes of a file, unpacked where they are packed, and its name.
 pub(super) struct FileStart<'a> {
     pub(super) path: &'a Path,
     pub(super) head: Vec<u8>,
+    /// How the file is packed; none where it is not.
+    pub(super) packing: Option<Packing>,
 }
 
 impl<'a> FileStart<'a> {
     /// # Errors
     /// The errors of opening and reading the file.
     pub(super) fn of(path: &'a Path) -> Result<Self> {
+        let source = Source::open(path)?;
+        let packing = source.packing();
         let mut head = Vec::new();
-        let read = regular_file::open(path)?.take(HEAD).read_to_end(&mut head);
-        read.map_err(|source| Error::Read { path: path.to_owned(), source })?;
-        Ok(Self { path, head })
+        match source.take(HEAD).read_to_end(&mut head) {
+            // What was unpacked before the damage tells the format; reading the file finds the damage again.
+            Err(_) if packing.is_some() => {}
+            read => read.map(drop).map_err(|error| read_error(path, error))?,
+        }
+        Ok(Self { path, head, packing })
     }
 
     /// Whether the name ends in one of these extensions, in whatever case.
@@ -30,8 +37,13 @@ impl<'a> FileStart<'a> {
         has_extension(self.path, known)
     }
 
-    /// Whether it starts as HDF5 does, or does so behind the block of 512 bytes that MATLAB puts first.
+    /// Whether it starts as HDF5 does, or does so behind the block of 512 bytes that MATLAB puts first. The library cannot read packed files.
     pub(super) fn is_hdf5(&self) -> bool {
+        self.packing.is_none() && self.begins_as_hdf5()
+    }
+
+    /// Whether it is HDF5, packed or not.
+    pub(super) fn begins_as_hdf5(&self) -> bool {
         const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
         [0, 512].iter().any(|at| self.head.get(*at..).is_some_and(|rest| rest.starts_with(SIGNATURE)))
     }

@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use super::blocks::LastLine;
 use super::file_start::FileStart;
 use super::patch::{PatchFaces, Patches};
+use super::row_label::RowLabel;
 use super::{Allowance, MatrixInput, MatrixRole};
 use crate::dofs::{DofMap, Nodes};
 use crate::error::Result;
+use crate::job::Layout;
 use crate::sparse::Triangle;
 
 /// How sure a format is that a file is one of its own.
@@ -37,9 +39,10 @@ pub(super) trait Format {
 /// A matrix that is to be read.
 pub(super) struct MatrixSource<'a> {
     pub(super) file: PathBuf,
-    /// The place in the file that the job states.
-    #[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "only HDF5 has places in a file"))]
-    pub(super) group: Option<String>,
+    /// The matrix in the file that the job names, by the path of its group where the file is HDF5.
+    pub(super) member: Option<String>,
+    /// The format that the job names.
+    pub(super) layout: Option<Layout>,
     pub(super) role: MatrixRole,
     /// The triangle that the job asks for.
     pub(super) triangle: Option<Triangle>,
@@ -50,6 +53,14 @@ pub(super) struct MatrixSource<'a> {
 
 /// A format of matrices.
 pub(super) trait MatrixFormat: Format {
+    /// Its name.
+    fn layout(&self) -> Layout;
+
+    /// Whether a file may hold several matrices, or names the one that it holds.
+    fn has_members(&self) -> bool {
+        false
+    }
+
     /// # Errors
     /// A file that cannot be read or whose content is wrong, more data than the allowance has room for.
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix>;
@@ -57,11 +68,9 @@ pub(super) trait MatrixFormat: Format {
 
 /// A format of nodes.
 pub(super) trait NodeFormat: Format {
-    /// The nodes, and the digest of the file that this one refers to.
-    ///
     /// # Errors
     /// A file that cannot be read or whose content is wrong, more data than `allowance` has room for.
-    fn read(&self, path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)>;
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<ReadNodes>;
 
     /// Files that a file refers to, where they can be told.
     fn referenced_files(&self, _path: &Path) -> Vec<PathBuf> {
@@ -82,9 +91,27 @@ pub(super) trait NodeFormat: Format {
     }
 }
 
+/// Nodes as their format left them.
+pub(super) struct ReadNodes {
+    /// Label, position and groups of each.
+    pub(super) nodes: Nodes,
+    /// BLAKE3 of the files that this one refers to, where it does.
+    pub(super) data_digest: Option<String>,
+    /// File and line that give nodes local directions, the first of them.
+    pub(super) local_directions: Option<(PathBuf, u64)>,
+}
+
+impl ReadNodes {
+    /// Nodes of a format that knows no local directions.
+    pub(super) fn along_the_axes(nodes: Nodes, data_digest: Option<String>) -> Self {
+        Self { nodes, data_digest, local_directions: None }
+    }
+}
+
 /// A format of dof maps.
 pub(super) trait DofMapFormat: Format {
-    /// The map of a model of n dofs. More rows than n are counted, not kept.
+    /// The map of a model of n dofs. More rows than n are counted, not kept. Rows may repeat a label, as CalculiX writes for nodes that it
+    /// made.
     ///
     /// # Errors
     /// A file that cannot be read or whose content is wrong.
@@ -99,13 +126,14 @@ pub(super) struct ReadMatrix {
     pub(super) order: OrderSource,
     /// Whether the last line is complete.
     pub(super) last_line: LastLine,
+    /// What each row is, ascending, where the matrix itself says so.
+    pub(super) labels: Option<Vec<RowLabel>>,
 }
 
 impl ReadMatrix {
     /// A matrix of a format that states its size.
-    #[cfg_attr(not(feature = "hdf5"), expect(dead_code))]
     pub(super) fn with_size(input: MatrixInput) -> Self {
-        Self { input, order: OrderSource::SizeLine, last_line: LastLine::Terminated }
+        Self { input, order: OrderSource::SizeLine, last_line: LastLine::Terminated, labels: None }
     }
 }
 
@@ -116,6 +144,8 @@ pub(super) enum OrderSource {
     SizeLine,
     /// The largest index.
     LargestIndex,
+    /// The labels of its rows.
+    Labels,
 }
 
 /// A dof map and how its directions were numbered.
@@ -126,6 +156,8 @@ pub(super) struct ReadDofs {
     pub(super) n_rows: usize,
     /// How directions are numbered.
     pub(super) base: DirectionBase,
+    /// The line that gives a node directions of its own, the first of them.
+    pub(super) local_directions: Option<u64>,
 }
 
 /// The number of the direction ux.

@@ -2,28 +2,53 @@
 
 use std::path::Path;
 
+use super::abaqus_labels::AbaqusLabels;
+use super::ansys_mapping::AnsysMapping;
+use super::dmig::Dmig;
 use super::dof_map::DofText;
 use super::file_start::FileStart;
-use super::format::{DofMapFormat, Format, MatrixFormat, NodeFormat, Sureness};
+use super::format::{DofMapFormat, Format, MatrixFormat, MatrixSource, NodeFormat, Sureness};
+use super::harwell_boeing::HarwellBoeing;
 use super::hdf5_format::{Hdf5Matrix, Hdf5Mesh};
-use super::matrix_market::TextMatrix;
+use super::matlab5::Matlab5;
+use super::matrix_market::{Coordinate, MatrixMarket};
+use super::mesh;
+use super::nastran_rows::NastranRows;
 use super::node_table::NodeTable;
+use super::npy_matrix::NpyMatrix;
+use super::npz::Npz;
+use super::op4::Op4;
 use super::unsupported_format::{self, Wanted};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Formats of matrices.
-const MATRICES: [&dyn MatrixFormat; 2] = [&Hdf5Matrix, &TextMatrix];
+const MATRICES: [&dyn MatrixFormat; 10] =
+    [&MatrixMarket, &Hdf5Matrix, &Matlab5, &Npz, &NpyMatrix, &Op4, &Dmig, &AbaqusLabels, &HarwellBoeing, &Coordinate];
 /// Formats of nodes.
-const NODES: [&dyn NodeFormat; 2] = [&Hdf5Mesh, &NodeTable];
+const NODES: [&dyn NodeFormat; 7] =
+    [&Hdf5Mesh, &mesh::DECK, &mesh::GMSH, &mesh::FRD, &mesh::VTK, &mesh::VTU, &NodeTable];
 /// Formats of dof maps.
-const DOF_MAPS: [&dyn DofMapFormat; 1] = [&DofText];
+const DOF_MAPS: [&dyn DofMapFormat; 3] = [&NastranRows, &AnsysMapping, &DofText];
 
-/// The format of a matrix.
+/// The format of a matrix: the one that the job names, or the only one that the content fits.
 ///
 /// # Errors
-/// [`Error::FormatNotRead`](crate::error::Error::FormatNotRead); those of opening the file.
-pub(super) fn of_matrix(file: &Path) -> Result<&'static dyn MatrixFormat> {
-    surest(&MATRICES, |format| *format, file, Wanted::Matrix).copied()
+/// [`Error::FormatNotRead`]; [`Error::FormatAmbiguous`]; those of opening the file.
+pub(super) fn of_matrix(source: &MatrixSource<'_>) -> Result<&'static dyn MatrixFormat> {
+    let named = source.layout.and_then(|layout| MATRICES.iter().find(|format| format.layout() == layout));
+    if let Some(named) = named {
+        return Ok(*named);
+    }
+    let start = FileStart::of(&source.file)?;
+    let certain: Vec<_> = MATRICES.into_iter().filter(|format| format.sureness(&start) == Sureness::Certain).collect();
+    match certain[..] {
+        [] => surest(&MATRICES, |format| *format, &start, Wanted::Matrix).copied(),
+        [only] => Ok(only),
+        _ => {
+            let formats = certain.iter().map(|format| format.layout().name()).collect();
+            Err(Error::FormatAmbiguous { path: source.file.clone(), formats })
+        }
+    }
 }
 
 /// The format of nodes.
@@ -31,7 +56,7 @@ pub(super) fn of_matrix(file: &Path) -> Result<&'static dyn MatrixFormat> {
 /// # Errors
 /// The errors of [`of_matrix`].
 pub(super) fn of_nodes(file: &Path) -> Result<&'static dyn NodeFormat> {
-    surest(&NODES, |format| *format, file, Wanted::Table).copied()
+    surest(&NODES, |format| *format, &FileStart::of(file)?, Wanted::Table).copied()
 }
 
 /// The format of a dof map.
@@ -39,13 +64,17 @@ pub(super) fn of_nodes(file: &Path) -> Result<&'static dyn NodeFormat> {
 /// # Errors
 /// The errors of [`of_matrix`].
 pub(super) fn of_dof_map(file: &Path) -> Result<&'static dyn DofMapFormat> {
-    surest(&DOF_MAPS, |format| *format, file, Wanted::Table).copied()
+    surest(&DOF_MAPS, |format| *format, &FileStart::of(file)?, Wanted::Table).copied()
 }
 
 /// The format that is surest of a file, the first of several. Files of formats that are not read are told by their content alone.
-fn surest<'f, F>(formats: &'f [F], as_format: fn(&F) -> &dyn Format, file: &Path, wanted: Wanted) -> Result<&'f F> {
-    let start = FileStart::of(file)?;
-    let sureness = |format: &F| as_format(format).sureness(&start);
+fn surest<'f, F>(
+    formats: &'f [F],
+    as_format: fn(&F) -> &dyn Format,
+    start: &FileStart<'_>,
+    wanted: Wanted,
+) -> Result<&'f F> {
+    let sureness = |format: &F| as_format(format).sureness(start);
     let mut surest = &formats[0];
     for format in &formats[1..] {
         if sureness(format) > sureness(surest) {
@@ -53,7 +82,7 @@ fn surest<'f, F>(formats: &'f [F], as_format: fn(&F) -> &dyn Format, file: &Path
         }
     }
     if sureness(surest) < Sureness::Certain {
-        unsupported_format::refuse(&start, wanted)?;
+        unsupported_format::refuse(start, wanted)?;
     }
     Ok(surest)
 }

@@ -8,8 +8,8 @@ use std::hash::{BuildHasher, RandomState};
 
 use rayon::prelude::*;
 
-use super::digits::{Digits, digits_of};
-use crate::sparse::Triplets;
+use super::digits::{Digits, digits_of_blocks};
+use crate::sparse::{TripletBlocks, Triplets};
 
 /// Up to this number, 64 MiB, entries are not merged.
 const FIRST_LOOK: usize = 1 << 22;
@@ -18,9 +18,11 @@ const SAMPLED: u64 = 64;
 
 /// The entries so far.
 pub(super) struct Gathering {
-    triplets: Triplets,
+    triplets: TripletBlocks,
     /// Entries that came.
     n_entries: u64,
+    /// Entries that are held.
+    n_held: usize,
     /// Entries that are in others.
     n_merged: usize,
     /// The most entries that were added up at one position, at most.
@@ -44,7 +46,7 @@ struct First {
 
 /// Everything that came.
 pub(super) struct Gathered {
-    pub(super) triplets: Triplets,
+    pub(super) triplets: TripletBlocks,
     /// Entries that repeated an earlier position and are in the sums.
     pub(super) n_merged: usize,
     /// The most of them at one position, at most.
@@ -56,8 +58,9 @@ pub(super) struct Gathered {
 impl Gathering {
     pub(super) fn new() -> Self {
         Self {
-            triplets: Triplets::default(),
+            triplets: TripletBlocks::default(),
             n_entries: 0,
+            n_held: 0,
             n_merged: 0,
             most_merged: 0,
             digits: None,
@@ -74,12 +77,7 @@ impl Gathering {
 
     /// Entries that are held.
     pub(super) fn n_held(&self) -> usize {
-        self.triplets.len()
-    }
-
-    /// Makes room for so many entries, where there is memory for them.
-    pub(super) fn expect(&mut self, n_entries: usize) {
-        self.triplets.expect(n_entries);
+        self.n_held
     }
 
     /// Keeps the first entry that comes apart until it is known what it is.
@@ -93,22 +91,32 @@ impl Gathering {
     }
 
     /// Takes the next entries of the file.
-    pub(super) fn append(&mut self, entries: &Triplets) {
+    pub(super) fn append(&mut self, entries: Triplets) {
         self.n_entries += entries.len() as u64;
-        self.triplets.append(entries);
-        if self.triplets.len() < self.look_at {
+        self.n_held += entries.len();
+        self.triplets.blocks.push(entries);
+        if self.n_held < self.look_at {
             return;
         }
-        if self.estimated_positions() < self.triplets.len() / 2 {
+        if self.estimated_positions() < self.n_held / 2 {
             self.merge();
         }
-        self.look_at = FIRST_LOOK.max(2 * self.triplets.len());
+        self.look_at = FIRST_LOOK.max(2 * self.n_held);
+    }
+
+    /// Gives every row and column a new number.
+    pub(super) fn renumber(&mut self, number: &[u32]) {
+        self.triplets.blocks.par_iter_mut().for_each(|block| {
+            for index in block.rows.iter_mut().chain(&mut block.cols) {
+                *index = number[*index as usize];
+            }
+        });
     }
 
     /// The largest index beyond the first entry, from 1; none without another entry.
     pub(super) fn largest_index_of_rest(&self) -> u64 {
-        let Triplets { rows, cols, .. } = &self.triplets;
-        rows.par_iter().chain(cols).max().map_or(0, |&index| u64::from(index) + 1)
+        let largest = |block: &Triplets| block.rows.iter().chain(&block.cols).max().copied();
+        self.triplets.blocks.par_iter().filter_map(largest).max().map_or(0, |index| u64::from(index) + 1)
     }
 
     /// The largest index, from 1.
@@ -125,15 +133,15 @@ impl Gathering {
         let digits = self.digits();
         let Self { mut triplets, n_merged, most_merged, first, .. } = self;
         if let Some(First { row, col, sum, is_merged }) = first {
-            let at = triplets.rows.iter().zip(&triplets.cols).position(|at| at == (&row, &col)).filter(|_| is_merged);
-            match at {
+            let merged = triplets.blocks.first_mut().filter(|_| is_merged);
+            let held = merged.and_then(|block| {
+                let at = block.rows.iter().zip(&block.cols).position(|at| at == (&row, &col))?;
+                block.values.get_mut(at)
+            });
+            match held {
                 // Merged once more above, so that the position is there once and this is its whole sum.
-                Some(at) => triplets.values[at] = sum,
-                None => {
-                    triplets.rows.insert(0, row);
-                    triplets.cols.insert(0, col);
-                    triplets.values.insert(0, sum);
-                }
+                Some(value) => *value = sum,
+                None => triplets.blocks.insert(0, Triplets { rows: vec![row], cols: vec![col], values: vec![sum] }),
             }
             return Gathered {
                 triplets,
@@ -153,15 +161,15 @@ impl Gathering {
 
     /// Sums of numbers of few digits have more of them, or all that a double has: the numbers are looked at as they stand in the file.
     fn digits(&self) -> Digits {
-        self.digits.unwrap_or_else(|| digits_of(&self.triplets.values))
+        self.digits.unwrap_or_else(|| digits_of_blocks(&self.triplets))
     }
 
     /// How many positions differ, by those of a sample that no file can know.
     fn estimated_positions(&self) -> usize {
-        let Triplets { rows, cols, .. } = &self.triplets;
-        let key = |(&row, &col): (&u32, &u32)| (u64::from(row) << 32) | u64::from(col);
+        let key = |(row, col, _): (u32, u32, f64)| (u64::from(row) << 32) | u64::from(col);
         let is_sampled = |key: &u64| self.hashing.hash_one(key).is_multiple_of(SAMPLED);
-        let mut sample: Vec<u64> = rows.par_iter().zip(cols).map(key).filter(is_sampled).collect();
+        let blocks = self.triplets.blocks.par_iter();
+        let mut sample: Vec<u64> = blocks.flat_map_iter(|block| block.iter().map(key).filter(is_sampled)).collect();
         sample.par_sort_unstable();
         sample.dedup();
         sample.len().saturating_mul(SAMPLED as usize)
@@ -170,10 +178,9 @@ impl Gathering {
     /// Adds up the entries of each position, in the order of the file.
     fn merge(&mut self) {
         self.digits = Some(self.digits());
-        let Triplets { rows, cols, values } = std::mem::take(&mut self.triplets);
-        let before = values.len();
-        let mut entries: Vec<(u32, u32, f64)> =
-            rows.into_iter().zip(cols).zip(values).map(|((row, col), value)| (row, col, value)).collect();
+        let before = self.n_held;
+        let mut entries: Vec<(u32, u32, f64)> = Vec::with_capacity(before);
+        std::mem::take(&mut self.triplets).blocks.into_iter().for_each(|block| entries.extend(block.iter()));
         // Stable: entries of one position stay in the order of the file.
         entries.par_sort_by_key(|&(row, col, _)| (row, col));
         self.add_to_first(&entries);
@@ -188,13 +195,10 @@ impl Gathering {
             is_same
         });
         self.n_merged += before - entries.len();
-        let mut merged = Triplets {
-            rows: Vec::with_capacity(entries.len()),
-            cols: Vec::with_capacity(entries.len()),
-            values: Vec::with_capacity(entries.len()),
-        };
+        let mut merged = Triplets::with_capacity(entries.len());
         entries.iter().for_each(|&(row, col, value)| merged.push(row, col, value));
-        self.triplets = merged;
+        self.n_held = merged.len();
+        self.triplets = merged.into();
     }
 
     /// Adds what is about to be merged into the position of the first entry to the sum that holds it.
@@ -234,9 +238,8 @@ mod tests {
         sums
     }
 
-    fn listed(gathered: &Triplets) -> Vec<(u32, u32, f64)> {
-        let Triplets { rows, cols, values } = gathered;
-        rows.iter().zip(cols).zip(values).map(|((row, col), value)| (*row, *col, *value)).collect()
+    fn listed(gathered: &TripletBlocks) -> Vec<(u32, u32, f64)> {
+        gathered.iter().collect()
     }
 
     /// Wherever the entries are cut and merged, and whether or not the first one is doubted.
@@ -253,7 +256,7 @@ mod tests {
                         if doubted {
                             part = gathering.doubt_first(part);
                         }
-                        gathering.append(&part);
+                        gathering.append(part);
                         gathering.merge();
                     }
                     gathering
@@ -277,7 +280,7 @@ mod tests {
         let mut repeated = Gathering::new();
         let mut most = 0;
         for _ in 0..3 * (FIRST_LOOK >> 16) {
-            repeated.append(&part);
+            repeated.append(part.clone());
             most = most.max(repeated.n_held());
         }
         assert_eq!((repeated.n_entries(), most), (3 * FIRST_LOOK as u64, FIRST_LOOK - (1 << 16) + 20));
@@ -285,7 +288,7 @@ mod tests {
 
         let mut distinct = Gathering::new();
         for row in 0..(FIRST_LOOK as u32) >> 10 {
-            distinct.append(&triplets(&(0..1 << 11).map(|col| (row, col, 1.0)).collect::<Vec<_>>()));
+            distinct.append(triplets(&(0..1 << 11).map(|col| (row, col, 1.0)).collect::<Vec<_>>()));
         }
         assert_eq!((distinct.n_held(), distinct.all().n_merged), (2 * FIRST_LOOK, 0));
     }

@@ -1,20 +1,24 @@
 //! Matrices and meshes in HDF5 among the other formats, also where the program is built without the library.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
+#[cfg(feature = "hdf5")]
+use std::path::PathBuf;
 
 use super::Allowance;
 #[cfg(feature = "hdf5")]
 use super::Digits;
-use super::file_start::{FileStart, has_extension};
-use super::format::{Format, MatrixFormat, MatrixSource, NodeFormat, ReadMatrix, Sureness};
+use super::file_start::FileStart;
+use super::format::{Format, MatrixFormat, MatrixSource, NodeFormat, ReadMatrix, ReadNodes, Sureness};
 #[cfg(feature = "hdf5")]
 use super::hdf5;
+use super::member::split_member;
+use super::mode_format::{ModeSource, ReadModes};
 #[cfg(feature = "hdf5")]
 use super::patch::{PatchFaces, Patches};
-use crate::dofs::Nodes;
 #[cfg(not(feature = "hdf5"))]
 use crate::error::Error;
 use crate::error::Result;
+use crate::job::Layout;
 
 /// Extensions of files that hold matrices in HDF5.
 const CONTAINERS: [&str; 6] = ["h5", "hdf5", "hdf", "mat", "h5ad", "he5"];
@@ -26,18 +30,6 @@ pub(super) struct Hdf5Matrix;
 
 /// Meshes in HDF5, or in XML that refers to it.
 pub(super) struct Hdf5Mesh;
-
-/// The file of a matrix, and the group in it where the job says `file.h5:/group`.
-pub(super) fn split_group(path: &Path) -> (PathBuf, Option<String>) {
-    if let Some((file, group)) = path.to_str().and_then(|text| text.rsplit_once(":/"))
-        && !path.exists()
-        && (has_extension(Path::new(file), &CONTAINERS)
-            || FileStart::of(Path::new(file)).is_ok_and(|start| start.is_hdf5()))
-    {
-        return (file.into(), Some(format!("/{group}")));
-    }
-    (path.to_owned(), None)
-}
 
 /// The modes in a dataset of an HDF5 file, for matrices of `n_rows` rows.
 ///
@@ -56,22 +48,34 @@ pub(super) fn mode_columns(
     return Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" });
 }
 
-/// Whether the modes of a job are in an HDF5 file.
-pub(super) fn has_modes(path: &Path) -> bool {
-    FileStart::of(&split_group(path).0).is_ok_and(|start| start.is_hdf5())
+/// The modes in an HDF5 file that was written by a program that is known, with their eigenvalues.
+///
+/// # Errors
+/// Those of [`super::mode_columns`]; [`Error::FeatureMissing`] where the program is built without the library.
+pub(super) fn foreign_modes(source: &ModeSource<'_>) -> Result<ReadModes> {
+    #[cfg(feature = "hdf5")]
+    return hdf5::feminterface_modes(&source.file, source.n_rows, source.allowance);
+    #[cfg(not(feature = "hdf5"))]
+    return Err(Error::FeatureMissing { path: source.file.clone(), feature: "hdf5" });
 }
 
-/// Reads the modes of a job where they are in an HDF5 file, and discards them.
+/// Whether the modes of a job are in an HDF5 file.
+pub(super) fn has_modes(path: &Path) -> bool {
+    FileStart::of(&split_member(path).0).is_ok_and(|start| start.is_hdf5())
+}
+
+/// Reads modes, or their frequencies, where they are in an HDF5 file, and discards them.
 ///
 /// # Errors
 /// A file that cannot be read or has no such dataset.
 #[cfg_attr(not(feature = "hdf5"), expect(unused_variables, reason = "nothing is read"))]
 pub(super) fn rehearse_modes(path: &Path, allowance: &Allowance) -> Result<()> {
     #[cfg(feature = "hdf5")]
-    if has_modes(path)
-        && let (file, Some(dataset)) = split_group(path)
-    {
-        return hdf5::rehearse_dataset(&file, &dataset, allowance);
+    if has_modes(path) {
+        return match split_member(path) {
+            (file, Some(dataset)) => hdf5::rehearse_dataset(&file, &dataset, allowance),
+            (file, None) => hdf5::rehearse_feminterface(&file, allowance),
+        };
     }
     Ok(())
 }
@@ -106,9 +110,17 @@ impl Format for Hdf5Mesh {
 
 #[cfg(feature = "hdf5")]
 impl MatrixFormat for Hdf5Matrix {
+    fn layout(&self) -> Layout {
+        Layout::Hdf5
+    }
+
+    fn has_members(&self) -> bool {
+        true
+    }
+
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
-        let MatrixSource { file, group, role, stated_digits, allowance, .. } = source;
-        let mut input = hdf5::read_matrix_within(file, group.as_deref(), *role, allowance)?;
+        let MatrixSource { file, member, role, stated_digits, allowance, .. } = source;
+        let mut input = hdf5::read_matrix_within(file, member.as_deref(), *role, allowance)?;
         input.digits = stated_digits.map_or(input.digits, Digits::stated);
         Ok(ReadMatrix::with_size(input))
     }
@@ -116,8 +128,8 @@ impl MatrixFormat for Hdf5Matrix {
 
 #[cfg(feature = "hdf5")]
 impl NodeFormat for Hdf5Mesh {
-    fn read(&self, path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)> {
-        hdf5::read_nodes_within(path, allowance)
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<ReadNodes> {
+        hdf5::read_nodes_within(path, allowance).map(|(nodes, digest)| ReadNodes::along_the_axes(nodes, digest))
     }
 
     fn referenced_files(&self, path: &Path) -> Vec<PathBuf> {
@@ -135,6 +147,14 @@ impl NodeFormat for Hdf5Mesh {
 
 #[cfg(not(feature = "hdf5"))]
 impl MatrixFormat for Hdf5Matrix {
+    fn layout(&self) -> Layout {
+        Layout::Hdf5
+    }
+
+    fn has_members(&self) -> bool {
+        true
+    }
+
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
         Err(Error::FeatureMissing { path: source.file.clone(), feature: "hdf5" })
     }
@@ -142,7 +162,7 @@ impl MatrixFormat for Hdf5Matrix {
 
 #[cfg(not(feature = "hdf5"))]
 impl NodeFormat for Hdf5Mesh {
-    fn read(&self, path: &Path, _: &Allowance) -> Result<(Nodes, Option<String>)> {
+    fn read(&self, path: &Path, _: &Allowance) -> Result<ReadNodes> {
         Err(Error::FeatureMissing { path: path.to_owned(), feature: "hdf5" })
     }
 }

@@ -7,46 +7,67 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::MatrixInput;
 use super::allowance::Claim;
+use super::assembled::{Found, assembled, bytes_of_entry};
 use super::banner::{Head, HeadReader, square_order};
 use super::blocks::{BLOCK_BYTES, for_each_batch};
-use super::digits::{Digits, most_alike};
-use super::entries::{Entries, Fault, MIN_LINE_BYTES, parse_entries};
+use super::entries::{Entries, Fault, parse_entries};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, OrderSource, ReadMatrix, Sureness};
-use super::gathering::{Gathered, Gathering};
-use super::written::{MAX_DECIMAL_DIGITS, Written, written};
+use super::gathering::Gathering;
+use super::market_array;
+use super::written::{Written, written};
 use crate::error::{Error, Result};
-use crate::sparse::{Declared, ENTRY_BYTES, MAX_ORDER, ROW_BYTES, TRIPLET_BYTES};
-
-/// Order up to which a matrix may be empty; its row pointers take 8 MiB.
-const FREE_ORDER: u64 = 1 << 20;
-/// Rows for each entry that a larger matrix may have, so that the row pointers stay within a multiple of the file.
-const MAX_ROWS_PER_ENTRY: u64 = 100;
+use crate::job::Layout;
+use crate::sparse::{Declared, MAX_ORDER};
 
 /// How a file with a banner begins, in whatever case.
 const BANNER: &[u8] = b"%%MatrixMarket";
 
-/// Matrix Market, and bare triplets: every file that is nothing else.
-pub(super) struct TextMatrix;
+/// Matrix Market.
+pub(super) struct MatrixMarket;
 
-impl Format for TextMatrix {
+/// Bare triplets: every file that is nothing else.
+pub(super) struct Coordinate;
+
+impl Format for MatrixMarket {
     fn sureness(&self, start: &FileStart<'_>) -> Sureness {
         let text = start.head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&start.head);
         let begins = text.get(..BANNER.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(BANNER));
-        if begins { Sureness::Certain } else { Sureness::Possible }
+        if begins { Sureness::Certain } else { Sureness::Unlikely }
     }
 }
 
-impl MatrixFormat for TextMatrix {
+impl Format for Coordinate {
+    fn sureness(&self, _: &FileStart<'_>) -> Sureness {
+        Sureness::Possible
+    }
+}
+
+impl MatrixFormat for MatrixMarket {
+    fn layout(&self) -> Layout {
+        Layout::MatrixMarket
+    }
+
+    fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+        if market_array::begins(&FileStart::of(&source.file)?) {
+            return market_array::read(source);
+        }
+        read_in_blocks(source, BLOCK_BYTES)
+    }
+}
+
+impl MatrixFormat for Coordinate {
+    fn layout(&self) -> Layout {
+        Layout::Coordinate
+    }
+
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
         read_in_blocks(source, BLOCK_BYTES)
     }
 }
 
-/// Reads a matrix from text, plain or gzipped, in blocks of about this many bytes. The block size changes no result.
-/// With a triangle asked for, entries on both sides of the diagonal of a matrix declared symmetric are let pass.
+/// Reads a matrix from text in blocks of about this many bytes. The block size changes no result.
 fn read_in_blocks(source: &MatrixSource<'_>, block_bytes: usize) -> Result<ReadMatrix> {
     let path = source.file.as_path();
     let mut reading = Reading {
@@ -75,20 +96,9 @@ fn read_in_blocks(source: &MatrixSource<'_>, block_bytes: usize) -> Result<ReadM
             (n, Declared::General, order, gathered)
         }
     };
-    let Gathered { triplets, n_merged, most_merged, digits } = gathered;
-    check_emptiness(path, n, triplets.len())?;
-    let assembled = if source.triangle.is_some() { Declared::General } else { declared };
-    let digits = source.stated_digits.map_or_else(|| digits.with(written), Digits::stated);
-    // Needed for sums of numbers of few digits alone.
-    let most_alike = (digits.significant <= MAX_DECIMAL_DIGITS && n_merged == 0).then(|| most_alike(&triplets.values));
-    let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
-    notes.mirrored &= declared == Declared::General;
-    notes.n_duplicates += n_merged;
-    notes.most_repeated += most_merged;
-    claim.set(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * u64::from(n))?;
-    notes.most_alike = most_alike.filter(|_| notes.most_repeated > 0);
-    let input = MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: ending.digest };
-    Ok(ReadMatrix { input, order, last_line: ending.last_line })
+    let found = Found { n, declared, entries: gathered, written, digest: ending.digest };
+    let input = assembled(found, source, &claim)?;
+    Ok(ReadMatrix { input, order, last_line: ending.last_line, labels: None })
 }
 
 /// What was read so far.
@@ -105,20 +115,13 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// Room for the entries that the size line declares, as far as a file of this length holds them (of a gzipped one that is
-    /// too few): a list that grows is held twice each time it moves.
-    fn expect_entries(&mut self) {
-        let Some(Head::Coordinate { n_entries, .. }) = self.head else { return };
-        let most = std::fs::metadata(self.path).map_or(0, |file| file.len() / MIN_LINE_BYTES as u64);
-        self.entries.expect(n_entries.min(most) as usize);
-    }
-
     /// Claims the entries so far and the matrix that will be made of them: both triangles where one is declared for both.
     fn claim_entries(&mut self) -> Result<()> {
-        let is_mirrored =
-            matches!(self.head, Some(Head::Coordinate { declared: Declared::Symmetric | Declared::Skew, .. }));
-        let of_entry = TRIPLET_BYTES + if is_mirrored { 2 * ENTRY_BYTES } else { ENTRY_BYTES };
-        self.claim.set(of_entry * self.entries.n_held() as u64)
+        let declared = match self.head {
+            Some(Head::Coordinate { declared, .. }) => declared,
+            _ => Declared::General,
+        };
+        self.claim.set(bytes_of_entry(declared) * self.entries.n_held() as u64)
     }
 
     fn take(&mut self, batch: &[Vec<u8>]) -> Result<()> {
@@ -129,7 +132,6 @@ impl Reading<'_> {
                 let (taken, head) = self.head_reader.take(text)?;
                 (text, self.head) = (&text[taken..], head);
                 self.n_lines = self.head_reader.n_lines();
-                self.expect_entries();
             }
             texts.push(text);
         }
@@ -155,7 +157,7 @@ impl Reading<'_> {
             if matches!(self.head, Some(Head::Headerless { first: Some(_), .. })) {
                 triplets = self.entries.doubt_first(triplets);
             }
-            self.entries.append(&triplets);
+            self.entries.append(triplets);
             self.claim_entries()?;
             self.n_lines += entries.n_lines;
         }
@@ -191,15 +193,6 @@ fn check_count(path: &Path, declared: u64, found: u64) -> Result<()> {
     Err(Error::EntryCount { path: path.to_owned(), declared, found })
 }
 
-/// Refuses to make row pointers of a size that only an index or the size line promises.
-fn check_emptiness(path: &Path, n: u32, n_entries: usize) -> Result<()> {
-    let (n, entries) = (u64::from(n), n_entries as u64);
-    if n > FREE_ORDER && n / MAX_ROWS_PER_ENTRY > entries {
-        return Err(Error::MatrixMostlyEmpty { path: path.to_owned(), n, entries });
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -209,7 +202,8 @@ mod tests {
 
     fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<ReadMatrix> {
         let (file, role, allowance) = (path.to_owned(), MatrixRole::Stiffness, &Allowance::of(None));
-        let source = MatrixSource { file, group: None, role, triangle: None, stated_digits: None, allowance };
+        let source =
+            MatrixSource { file, member: None, layout: None, role, triangle: None, stated_digits: None, allowance };
         super::read_in_blocks(&source, block_bytes)
     }
 

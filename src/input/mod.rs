@@ -2,61 +2,110 @@
 //!
 //! A reader never guesses silently. Whatever it did beyond copying becomes a note in the report.
 
+mod abaqus_labels;
 mod allowance;
+mod ansys_mapping;
+mod archive;
+mod assembled;
 mod banner;
 mod blocks;
+mod bulk_cards;
+mod calculix;
+mod cell_kind;
+mod common_rows;
+mod compressed;
 mod constraint_file;
 mod decimal;
 mod digits;
+mod dmig;
 mod dof_map;
 mod empty_rows;
 mod entries;
 mod exact;
+mod face_areas;
+mod face_shapes;
+mod faces;
 mod facts;
 mod file_start;
+mod foreign_modes;
 mod format;
 mod formats;
+mod fortran;
 mod further_matrix;
 mod gathering;
+mod harwell_boeing;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 mod hdf5_format;
 mod internal_forces;
+mod labels;
+mod lines;
 mod load_file;
+mod map_and_nodes;
+mod market_array;
+mod matlab5;
 mod matrix_market;
+mod member;
+mod mesh;
+mod mode_format;
 mod mode_matrix;
+mod mode_values;
 mod model_files;
 mod modes_file;
+mod named;
+mod named_files;
+mod nastran_rows;
 mod node_table;
 mod note;
 mod npy;
+mod npy_header;
+mod npy_matrix;
+mod npz;
+mod numpy_array;
+mod op4;
 mod patch;
 mod patch_faces;
 mod quantity_files;
+mod raw_numbers;
 mod rectangular;
+mod row_label;
+mod single_matrix;
 mod single_precision;
 mod source;
 mod state_table;
 mod table;
+mod tag_groups;
+mod unit_mass;
 mod unsupported_format;
+mod value_unit;
 mod written;
+mod xml_size;
+mod zstd;
 
 pub use allowance::Allowance;
+pub use common_rows::RowLabels;
 pub use constraint_file::{Constraint, ConstraintRows};
 pub use digits::{Digits, DigitsBy, digits_of};
+pub use face_areas::area_vectors;
 pub use facts::{InputFacts, MatrixFacts};
+pub use foreign_modes::{ForeignModes, foreign_modes};
 pub use further_matrix::FurtherMatrix;
 pub use load_file::{LoadColumn, WantedColumn, load_column};
+pub use map_and_nodes::nodes;
+pub use mode_values::{ModeValues, ValueSource};
 pub use model_files::{
-    Input, expansion_columns, file_of, files, further_matrices, hdf5_file, job_quantities, load_columns, read,
-    read_hdf5_parts, read_within, start_hdf5,
+    Input, expansion_columns, further_matrices, job_quantities, load_columns, read, read_hdf5_parts, read_within,
+    start_hdf5,
 };
 pub use modes_file::{ModeColumns, mode_columns};
+pub use named_files::{bytes_of_matrices, file_of, files, hdf5_file};
 pub use note::InputNote;
-pub use patch::{Faces, Patch, PatchFaces, Patches};
+pub use patch::{Face, Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, looks_at_faces, patch_faces};
 pub use quantity_files::{QuantityRows, quantity_rows};
+pub use single_matrix::{ReadSingle, SingleMatrix};
 pub use state_table::{StateRow, StateTable};
+pub use value_unit::ValueUnit;
 
 use std::path::PathBuf;
 
@@ -86,6 +135,8 @@ pub enum MatrixRole {
     Mass,
     /// A further matrix, which may be neither symmetric nor skew.
     Further,
+    /// A matrix that is written in another format as it is.
+    Conversion,
 }
 
 impl MatrixRole {
@@ -95,6 +146,7 @@ impl MatrixRole {
             Self::Stiffness => "stiffness",
             Self::Mass => "mass",
             Self::Further => "further matrix",
+            Self::Conversion => "which one is meant",
         }
     }
 }

@@ -1,27 +1,28 @@
 //! The files of a finite element model: which there are, what they hold, and whether it fits together.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::allowance::Allowance;
-use super::blocks::LastLine;
+use super::common_rows::{RowLabels, fit_matrices, take_notes};
 use super::constraint_file::{ConstraintRows, constraint_rows};
-use super::format::{DirectionBase, MatrixSource, OrderSource, ReadMatrix};
+use super::format::{MatrixSource, ReadMatrix};
 use super::further_matrix::FurtherMatrix;
-use super::hdf5_format::{self, split_group};
+use super::hdf5_format;
 use super::internal_forces::{on_rows, read_internal_forces};
 use super::load_file::{LoadColumn, WantedColumn, load_column};
+use super::map_and_nodes::{Digests, MapAndNodes, dof_map_for_labels, map_and_nodes, nodes};
+use super::member::split_member;
 use super::modes_file::{ModeColumns, mode_columns};
 use super::patch::Patches;
 use super::quantity_files::{QuantityRows, quantity_rows};
-use super::{Cells, InputNote, MatrixInput, MatrixRole, dof_map, empty_rows, formats};
+use super::{Cells, InputNote, MatrixInput, MatrixRole, empty_rows, formats, unit_mass};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
 use crate::job::{
     ConstraintsToGround, Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob,
 };
-use crate::regular_file::{digest, unchanged};
-use crate::sparse::SparseMatrix;
+use crate::regular_file::unchanged;
 use crate::sparse::Triangle;
 
 /// A finite element model as it was read: matrices of one size, a dof map that fits them, nodes that fit the map.
@@ -33,6 +34,8 @@ pub struct Input {
     pub mass: MatrixInput,
     /// What each row stands for; absent where the job names neither a dof map nor nodes.
     pub dofs: Option<DofMap>,
+    /// What each row of the files is called by matrices that name their rows.
+    pub labels: RowLabels,
     /// Nodes; absent where the job names none.
     pub nodes: Option<Nodes>,
     /// Which rows of the files are left.
@@ -41,7 +44,7 @@ pub struct Input {
     pub constraints: Option<ConstraintRows>,
     /// Internal forces of a preloaded state, one for each row that is left, in the units of the file; absent where the job names none.
     pub internal_forces: Option<Vec<f64>>,
-    /// BLAKE3 digests of the files of the dof map (`dofs`), of the nodes (`nodes`), of what those refer to (`nodes_data`), of the
+    /// BLAKE3 digests of the files of the dof map (`dofs`), of what CalculiX wrote next to it (`dofs_data`), of the nodes (`nodes`), of what those refer to (`nodes_data`), of the
     /// constraints (`constraints`) and of the internal forces (`internal_forces`), lower-case hexadecimal.
     pub digests: BTreeMap<&'static str, String>,
     /// What reading needed beyond copying.
@@ -72,32 +75,15 @@ pub fn read(model: &ModelJob) -> Result<Input> {
 /// [`Error::Duplicates`] where the job refuses them.
 pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let mut notes = Vec::new();
-    let [stiffness, mass] = own_sources(model, allowance);
-    let (stiffness, mass) = rayon::join(|| read_matrix(&stiffness), || read_matrix(&mass));
-    let (mut stiffness, mut mass) = fit_matrices(stiffness?, mass?, &mut notes)?;
-    for matrix in [&mut stiffness, &mut mass] {
-        refuse_duplicates(matrix, model.duplicates)?;
-        notes.extend(model.symmetric.and_then(|triangle| take_triangle(matrix, triangle)));
-        notes.extend(last_row_empty(matrix));
-    }
+    let OwnMatrices { mut stiffness, mass, labels, map } = own_matrices(model, allowance, &mut notes)?;
     let n = stiffness.matrix.rows();
     let mut digests = BTreeMap::new();
-    let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, &mut digests)).transpose()?;
-    let given = nodes.as_ref().zip(model.nodes.as_deref());
-    let mut dofs = match (model.dofs.as_deref(), given) {
-        (Some(path), given) => {
-            let (dofs, digest) = unchanged(path, || Ok((read_dofs(path, n, given, &mut notes)?, digest(path)?)))?;
-            digests.insert("dofs", digest);
-            Some(dofs)
-        }
-        (None, Some((nodes, path))) => {
-            let dofs = dof_map::default_order(nodes, path, n)?;
-            let dofs_per_node = n / nodes.labels.len();
-            notes.push(InputNote::DefaultOrder { dofs_per_node, nodes: path.to_owned() });
-            Some(dofs)
-        }
-        (None, None) => None,
-    };
+    let is_labelled = labels.is_some();
+    let labels = labels.unwrap_or_default();
+    let named = is_labelled.then(|| (model.stiffness.as_path(), labels.dof_map().unwrap_or_default()));
+    let MapAndNodes { mut dofs, nodes } = map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
+    let labels = dofs.as_ref().filter(|_| !is_labelled || map.is_some()).map_or(labels, RowLabels::of_map);
+    let mut mass = mass.unwrap_or_else(|| unit_mass::of(&stiffness.matrix, dofs.as_deref()));
     let constraints = read_constraints(model, n, allowance, &mut digests)?;
     let forces = read_internal_forces(model, n, &mut digests)?;
     let mut rows = FileRows::default();
@@ -112,7 +98,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let number = |row: u32| rows.find(row as usize).unwrap_or_default() as u32;
     let constraints = constraints.map(|constraints| constraints.renumbered(number));
     let internal_forces = forces.map(|forces| on_rows(forces, &rows, stiffness.matrix.rows())).transpose()?;
-    Ok(Input { stiffness, mass, dofs, nodes, rows, constraints, internal_forces, digests, notes })
+    Ok(Input { stiffness, mass, dofs, labels, nodes, rows, constraints, internal_forces, digests, notes })
 }
 
 /// The columns of the files of loads, one for each load that has a file.
@@ -125,7 +111,7 @@ pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadC
         LoadPattern::File(path, column) => {
             load_column(WantedColumn { path, load: &load.name, column, n_rows }).map(Some)
         }
-        LoadPattern::Force(..) | LoadPattern::Rotation(_) => Ok(None),
+        LoadPattern::Force(..) | LoadPattern::Pressure(..) | LoadPattern::Rotation(_) => Ok(None),
     };
     loads.iter().map(of_load).collect()
 }
@@ -150,7 +136,8 @@ pub fn expansion_columns(
 pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Result<Vec<FurtherMatrix>> {
     let n_rows = input.n_file_rows();
     let read = |matrix: &MatrixJob| {
-        let (input, _) = take_notes(read_matrix(&further_source(matrix, allowance))?, &mut Vec::new());
+        let read = input.labels.placed(read_matrix(&further_source(matrix, allowance))?)?;
+        let (input, _) = take_notes(read, &mut Vec::new());
         refuse_duplicates(&input, job.model.duplicates)?;
         let n = input.matrix.rows();
         if n != n_rows {
@@ -161,9 +148,9 @@ pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Resu
     job.matrices.iter().map(read).collect()
 }
 
-fn further_source<'a>(job: &MatrixJob, allowance: &'a Allowance) -> MatrixSource<'a> {
-    let (file, group) = split_group(&job.file);
-    MatrixSource { file, group, role: MatrixRole::Further, triangle: None, stated_digits: None, allowance }
+pub(super) fn further_source<'a>(job: &MatrixJob, allowance: &'a Allowance) -> MatrixSource<'a> {
+    let ((file, member), layout) = (split_member(&job.file), job.layout);
+    MatrixSource { file, member, layout, role: MatrixRole::Further, triangle: None, stated_digits: None, allowance }
 }
 
 /// The rows of quantities of a job, where it asks for some.
@@ -188,95 +175,102 @@ pub fn start_hdf5() -> Result<()> {
     Ok(())
 }
 
-/// The file of a path that may name a place in it, as `model.h5:/V` does.
-pub fn file_of(path: &Path) -> PathBuf {
-    split_group(path).0
-}
-
-/// Every file of a model with what it is, those that its files refer to among them. Files that cannot be read are listed all the same.
-pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
-    let mut files = vec![("the stiffness", file_of(&model.stiffness)), ("the mass", file_of(&model.mass))];
-    files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
-    files.extend(model.constraints.clone().map(|path| ("the constraints", path)));
-    files.extend(model.internal_forces.clone().map(|path| ("the internal forces", path)));
-    if let Some(nodes) = &model.nodes {
-        files.push(("the nodes", nodes.clone()));
-        let referenced = formats::of_nodes(nodes).map(|format| format.referenced_files(nodes)).unwrap_or_default();
-        files.extend(referenced.into_iter().map(|path| ("the data of the nodes", path)));
-    }
-    files
-}
-
-/// The first file of a job that the HDF5 library reads, where one is.
-pub fn hdf5_file(job: &Job) -> Option<PathBuf> {
-    let model = &job.model;
-    let modes = job.reduction.modes_file().filter(|path| hdf5_format::has_modes(path)).map(file_of);
-    let further = job.matrices.iter().map(|matrix| &matrix.file);
-    let matrices = [&model.stiffness, &model.mass].into_iter().chain(further).map(|path| file_of(path));
-    let matrices = matrices.filter(|file| formats::of_matrix(file).is_ok_and(|format| format.is_parsed_in_c()));
-    let nodes = model.nodes.iter().filter(|file| formats::of_nodes(file).is_ok_and(|format| format.is_parsed_in_c()));
-    matrices.chain(nodes.cloned()).chain(modes).next()
-}
-
-/// Reads the files of a job that need the HDF5 library, those of its model, of its further matrices and of its modes, and discards what was
+/// Reads the files of a job that need the HDF5 library, those of its model, of its further matrices and of modes, and discards what was
 /// read.
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong.
 pub fn read_hdf5_parts(
-    (model, matrices, modes): (&ModelJob, &[MatrixJob], Option<&Path>),
+    (model, matrices, modes): (Option<&ModelJob>, &[MatrixJob], &[PathBuf]),
     cells: Cells,
     allowance: &Allowance,
 ) -> Result<()> {
-    modes.map_or(Ok(()), |path| hdf5_format::rehearse_modes(path, allowance))?;
+    modes.iter().try_for_each(|path| hdf5_format::rehearse_modes(path, allowance))?;
     let further = matrices.iter().map(|matrix| further_source(matrix, allowance));
-    for source in further.chain(own_sources(model, allowance)) {
-        if formats::of_matrix(&source.file)?.is_parsed_in_c() {
+    let own = model.into_iter().flat_map(|model| {
+        let (stiffness, mass) = own_sources(model, allowance);
+        std::iter::once(stiffness).chain(mass)
+    });
+    for source in further.chain(own) {
+        if formats::of_matrix(&source)?.is_parsed_in_c() {
             read_matrix(&source)?;
         }
     }
-    let Some(path) = model.nodes.as_deref() else { return Ok(()) };
+    let Some(path) = model.and_then(|model| model.nodes.as_deref()) else { return Ok(()) };
     let format = formats::of_nodes(path)?;
     if !format.is_parsed_in_c() {
         return Ok(());
     }
-    let n_nodes = read_nodes(path, allowance, &mut BTreeMap::new())?.labels.len();
+    let coordinates = nodes(path, allowance)?.coordinates;
     match cells {
-        Cells::Wanted => format.read_faces(path, &Patches { n_nodes, list: Vec::new() }, allowance).map(drop),
+        Cells::Wanted => {
+            format.read_faces(path, &Patches { coordinates: &coordinates, list: Vec::new() }, allowance).map(drop)
+        }
         Cells::Unwanted => Ok(()),
     }
 }
 
-/// Where K and M are.
-fn own_sources<'a>(model: &ModelJob, allowance: &'a Allowance) -> [MatrixSource<'a>; 2] {
-    let own = [
-        (MatrixRole::Stiffness, &model.stiffness, model.stiffness_digits),
-        (MatrixRole::Mass, &model.mass, model.mass_digits),
-    ];
-    own.map(|(role, path, stated)| {
-        let (file, group) = split_group(path);
+/// Where K and M are; M may not be needed.
+pub(super) fn own_sources<'a>(
+    model: &ModelJob,
+    allowance: &'a Allowance,
+) -> (MatrixSource<'a>, Option<MatrixSource<'a>>) {
+    let source = |role, path, stated: Option<usize>| {
+        let (file, member) = split_member(path);
         // A job states 17 at most.
         let stated_digits = stated.map(|digits| digits as u32);
-        MatrixSource { file, group, role, triangle: model.symmetric, stated_digits, allowance }
+        MatrixSource { file, member, layout: model.layout, role, triangle: model.symmetric, stated_digits, allowance }
+    };
+    let mass = model.mass.as_ref().map(|path| source(MatrixRole::Mass, path, model.mass_digits));
+    (source(MatrixRole::Stiffness, &model.stiffness, model.stiffness_digits), mass)
+}
+
+pub(super) fn read_matrix(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+    unchanged(&source.file, || {
+        let format = formats::of_matrix(source)?;
+        match &source.member {
+            Some(name) if !format.has_members() => {
+                Err(Error::MatrixName { path: source.file.clone(), name: name.clone(), holds: Vec::new() })
+            }
+            _ => format.read(source),
+        }
     })
 }
 
-fn read_matrix(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
-    unchanged(&source.file, || formats::of_matrix(&source.file)?.read(source))
+/// K and M as their files have them, on common rows.
+struct OwnMatrices {
+    stiffness: MatrixInput,
+    /// None where the job does without.
+    mass: Option<MatrixInput>,
+    /// The rows that they name; none where they name none.
+    labels: Option<RowLabels>,
+    /// The dof map that their rows were put in the order of.
+    map: Option<DofMap>,
 }
 
-/// Digests by the role of a file.
-type Digests = BTreeMap<&'static str, String>;
-
-fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<Nodes> {
-    let (nodes, of_data, of_nodes) = unchanged(path, || {
-        let (nodes, of_data) = formats::of_nodes(path)?.read(path, allowance)?;
-        Ok((nodes, of_data, digest(path)?))
-    })?;
-    digests.extend(of_data.map(|digest| ("nodes_data", digest)));
-    digests.insert("nodes", of_nodes);
-    refuse_out_of_range(path, &nodes)?;
-    Ok(nodes)
+/// K and M, of one size and without what the job refuses. Rows that they name are put in the order of the map, where there is one.
+fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNote>) -> Result<OwnMatrices> {
+    let (stiffness, mass) = own_sources(model, allowance);
+    let (stiffness, mass) = rayon::join(|| read_matrix(&stiffness), || mass.as_ref().map(read_matrix).transpose());
+    let (stiffness, mass) = (stiffness?, mass?);
+    let matrices: Vec<&ReadMatrix> = std::iter::once(&stiffness).chain(&mass).collect();
+    let is_labelled = matrices.iter().any(|matrix| matrix.labels.is_some());
+    let map = model.dofs.as_deref().filter(|_| is_labelled).map(dof_map_for_labels).transpose()?;
+    let labels = RowLabels::common(&matrices, map.as_ref())?;
+    let stiffness = labels.placed(stiffness)?;
+    let (mut stiffness, mut mass) = match mass {
+        Some(mass) => {
+            let (stiffness, mass) = fit_matrices(stiffness, labels.placed(mass)?, notes)?;
+            (stiffness, Some(mass))
+        }
+        None => (take_notes(stiffness, notes).0, None),
+    };
+    for matrix in std::iter::once(&mut stiffness).chain(&mut mass) {
+        refuse_duplicates(matrix, model.duplicates)?;
+        notes.extend(model.symmetric.and_then(|triangle| take_triangle(matrix, triangle)));
+        notes.extend(last_row_empty(matrix).filter(|_| !is_labelled));
+    }
+    Ok(OwnMatrices { stiffness, mass, labels: is_labelled.then_some(labels), map })
 }
 
 fn read_constraints(
@@ -289,62 +283,6 @@ fn read_constraints(
     let read = constraint_rows(path, n, allowance)?;
     digests.insert("constraints", read.digest.clone());
     Ok(Some(ConstraintRows { may_ground: model.constraints_to_ground == ConstraintsToGround::Accept, ..read }))
-}
-
-/// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.
-fn refuse_out_of_range(path: &Path, nodes: &Nodes) -> Result<()> {
-    /// Four factors of so many bits leave room for stiffness and mass.
-    const BITS: u32 = 160;
-    let sizes = nodes
-        .coordinates
-        .iter()
-        .enumerate()
-        .flat_map(|(node, point)| (0..3).map(move |axis| (node, axis, point[axis])));
-    let Some((node, axis, value)) = sizes.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) else { return Ok(()) };
-    let range = f64::from(BITS).exp2().recip()..=f64::from(BITS).exp2();
-    if value == 0.0 || range.contains(&value.abs()) {
-        return Ok(());
-    }
-    Err(Error::NodeRange { path: path.to_owned(), node: nodes.labels[node], axis, value, bits: BITS })
-}
-
-/// Brings K and M to one order, which only a matrix without a size line allows, and notes what each needed.
-fn fit_matrices(
-    stiffness: ReadMatrix,
-    mass: ReadMatrix,
-    notes: &mut Vec<InputNote>,
-) -> Result<(MatrixInput, MatrixInput)> {
-    let (stiffness, stiffness_order) = take_notes(stiffness, notes);
-    let (mass, mass_order) = take_notes(mass, notes);
-    let (n_stiffness, n_mass) = (stiffness.matrix.rows(), mass.matrix.rows());
-    if n_stiffness < n_mass && stiffness_order == OrderSource::LargestIndex {
-        return Ok((extend(stiffness, n_mass, notes), mass));
-    }
-    if n_mass < n_stiffness && mass_order == OrderSource::LargestIndex {
-        return Ok((stiffness, extend(mass, n_stiffness, notes)));
-    }
-    if n_stiffness != n_mass {
-        let (stiffness, mass) = (stiffness.path, mass.path);
-        return Err(Error::SizeMismatch { stiffness, n_stiffness, mass, n_mass });
-    }
-    Ok((stiffness, mass))
-}
-
-fn take_notes(matrix: ReadMatrix, notes: &mut Vec<InputNote>) -> (MatrixInput, OrderSource) {
-    let ReadMatrix { input, order, last_line } = matrix;
-    if order == OrderSource::LargestIndex {
-        notes.push(InputNote::OrderFromIndices { path: input.path.clone(), n: input.matrix.rows() });
-    }
-    if last_line == LastLine::Open {
-        notes.push(InputNote::OpenLastLine { path: input.path.clone() });
-    }
-    if input.notes.n_duplicates > 0 {
-        notes.push(InputNote::Duplicates { path: input.path.clone(), count: input.notes.n_duplicates });
-    }
-    if input.notes.mirrored {
-        notes.push(InputNote::Mirrored { path: input.path.clone() });
-    }
-    (input, order)
 }
 
 fn refuse_duplicates(matrix: &MatrixInput, duplicates: Duplicates) -> Result<()> {
@@ -367,29 +305,4 @@ fn last_row_empty(matrix: &MatrixInput) -> Option<InputNote> {
     let mut empty = (0..n).filter(|row| matrix.matrix.outer_view(*row).is_none_or(|view| view.nnz() == 0));
     let is_last = n > 1 && empty.next() == Some(n - 1);
     is_last.then(|| InputNote::LastRowEmpty { path: matrix.path.clone(), n })
-}
-
-/// Adds empty rows and columns up to the order n.
-fn extend(input: MatrixInput, n: usize, notes: &mut Vec<InputNote>) -> MatrixInput {
-    notes.push(InputNote::Extended { path: input.path.clone(), from: input.matrix.rows(), to: n });
-    let (mut pointers, indices, data) = input.matrix.into_raw_storage();
-    pointers.resize(n + 1, indices.len());
-    MatrixInput { matrix: SparseMatrix::new((n, n), pointers, indices, data), ..input }
-}
-
-fn read_dofs(path: &Path, n: usize, nodes: Option<(&Nodes, &Path)>, notes: &mut Vec<InputNote>) -> Result<DofMap> {
-    let read = formats::of_dof_map(path)?.read(path, n)?;
-    if read.n_rows != n {
-        return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });
-    }
-    if read.base == DirectionBase::Zero {
-        notes.push(InputNote::DirectionsFromZero { path: path.to_owned() });
-    }
-    if let Some((nodes, nodes_path)) = nodes {
-        let count = dof_map::check_nodes(&read.dofs, path, nodes, nodes_path)?;
-        if count > 0 {
-            notes.push(InputNote::UnusedNodes { path: nodes_path.to_owned(), count });
-        }
-    }
-    Ok(read.dofs)
 }

@@ -7,9 +7,11 @@ use std::path::Path;
 use super::Allowance;
 use super::allowance::Claim;
 use super::file_start::FileStart;
-use super::hdf5_format::{self, split_group};
+use super::hdf5_format;
+use super::member::split_member;
 use super::mode_matrix::{NUMBER, checked_count};
 use super::npy;
+use super::npy_header::is_array;
 use super::rectangular::{Content, RectangularFile};
 use crate::error::{Error, Result};
 use crate::regular_file::{digest, unchanged};
@@ -29,7 +31,7 @@ pub struct ModeColumns {
 /// A file that cannot be read or has no modes; [`Error::ModesRows`] and [`Error::ModesColumns`] where it has another size;
 /// [`Error::MemoryRead`]; [`Error::Changed`] where it is written meanwhile.
 pub fn mode_columns(path: &Path, n_rows: usize, allowance: &Allowance) -> Result<ModeColumns> {
-    let (file, dataset) = split_group(path);
+    let (file, dataset) = split_member(path);
     unchanged(&file, || {
         let start = FileStart::of(&file)?;
         if start.is_hdf5() {
@@ -37,7 +39,7 @@ pub fn mode_columns(path: &Path, n_rows: usize, allowance: &Allowance) -> Result
             return Ok(ModeColumns { columns, digest: digest(&file)? });
         }
         let claim = allowance.claim(&file);
-        if npy::is_array(&start.head) {
+        if start.packing.is_none() && is_array(&start.head) {
             let columns = npy::columns(&file, n_rows, &claim)?;
             return Ok(ModeColumns { columns, digest: digest(&file)? });
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::allowance::Allowance;
 use super::file_start::FileStart;
-use super::format::{Format, NodeFormat, Sureness};
+use super::format::{Format, NodeFormat, ReadNodes, Sureness};
 use super::table::{Table, is_node_column, open_first_line};
 use crate::dofs::Nodes;
 use crate::error::{Error, Result};
@@ -27,8 +27,8 @@ impl Format for NodeTable {
 }
 
 impl NodeFormat for NodeTable {
-    fn read(&self, path: &Path, allowance: &Allowance) -> Result<(Nodes, Option<String>)> {
-        read(path, allowance).map(|nodes| (nodes, None))
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<ReadNodes> {
+        read(path, allowance).map(|nodes| ReadNodes::along_the_axes(nodes, None))
     }
 }
 

@@ -55,6 +55,13 @@ pub enum InputNote {
         /// The order.
         n: usize,
     },
+    /// K and M name the node and the direction of each row, and no dof map was given.
+    RowsNamed {
+        /// The file of the stiffness.
+        path: PathBuf,
+        /// Rows that either names.
+        n: usize,
+    },
     /// A matrix without a size line was filled up with empty rows to the order of the other.
     Extended {
         /// The file of the matrix.
@@ -88,6 +95,49 @@ pub enum InputNote {
         /// How many.
         count: usize,
     },
+    /// A deck gives nodes local directions.
+    Transformed {
+        /// The deck, or the file that it includes.
+        path: PathBuf,
+        /// The line of `*TRANSFORM`, from 1.
+        line: u64,
+    },
+    /// Bulk data of Nastran give a grid point directions of its own.
+    GridDirections {
+        /// The file of the dof map.
+        path: PathBuf,
+        /// The line of the grid point, from 1.
+        line: u64,
+    },
+    /// Nodes of shells or beams that CalculiX made into solids have got their nodes back.
+    Expanded {
+        /// The file of the dof map.
+        path: PathBuf,
+        /// The file that says where they are.
+        positions: PathBuf,
+        /// Nodes of the deck.
+        n_nodes: usize,
+        /// Nodes that were made of them.
+        n_made: usize,
+    },
+    /// Supports have taken rows of nodes that were made of one, so that rows could be those of several.
+    ExpandedUnsure {
+        /// The file of the dof map.
+        path: PathBuf,
+        /// Nodes of the deck.
+        count: usize,
+        /// The first of them.
+        first: i64,
+    },
+    /// Rows of nodes that no deck lists are amplitudes of incompatible modes.
+    Amplitudes {
+        /// The file of the dof map.
+        path: PathBuf,
+        /// Nodes that the deck does not list.
+        n_nodes: usize,
+        /// Elements of the deck that have incompatible modes.
+        n_elements: usize,
+    },
 }
 
 impl InputNote {
@@ -95,12 +145,14 @@ impl InputNote {
     pub fn warning_code(&self) -> Option<&'static str> {
         match self {
             Self::LastRowEmpty { .. } => Some("W-INDEX-BASE"),
+            Self::Transformed { .. } | Self::GridDirections { .. } => Some("W-LOCAL-DIRECTIONS"),
             _ => None,
         }
     }
 }
 
 impl fmt::Display for InputNote {
+    #[expect(clippy::too_many_lines, reason = "one sentence for each remark")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Duplicates { path, count } => {
@@ -108,24 +160,17 @@ impl fmt::Display for InputNote {
                 write!(f, "{}: {entries} a position: what stands at one position was added up", file_name(path))
             }
             Self::Mirrored { path } => {
-                write!(
-                    f,
-                    "{}: only one triangle is given; it was mirrored, as stiffness and mass are symmetric",
-                    file_name(path)
-                )
+                let why = "it was mirrored, as stiffness and mass are symmetric";
+                write!(f, "{}: only one triangle is given; {why}", file_name(path))
             }
             Self::TriangleTaken { path, triangle, n_differing } => {
                 let (kept, other) = match triangle {
                     Triangle::Lower => ("lower", "above"),
                     Triangle::Upper => ("upper", "below"),
                 };
-                write!(
-                    f,
-                    "{}: the {kept} triangle was taken for both as asked; what stands at {} {other} the diagonal \
-                     differs from it and was left out",
-                    file_name(path),
-                    counted(*n_differing, "position", "positions")
-                )
+                let positions = counted(*n_differing, "position", "positions");
+                let what = format!("what stands at {positions} {other} the diagonal differs from it and was left out");
+                write!(f, "{}: the {kept} triangle was taken for both as asked; {what}", file_name(path))
             }
             Self::EmptyRowsDropped { count, row, dof } => {
                 let dof = dof.map(|dof| format!(", {dof}")).unwrap_or_default();
@@ -144,6 +189,14 @@ impl fmt::Display for InputNote {
                 let rows = counted(*n, "row", "rows");
                 write!(f, "{}: no size line; the largest index makes it a matrix of {rows}", file_name(path))
             }
+            Self::RowsNamed { path, n } => {
+                let rows = counted(*n, "row is", "rows are");
+                write!(
+                    f,
+                    "{}: {rows} named by stiffness and mass, in the order of nodes and directions",
+                    file_name(path)
+                )
+            }
             Self::Extended { path, from, to } => {
                 write!(
                     f,
@@ -158,6 +211,38 @@ impl fmt::Display for InputNote {
             Self::DefaultOrder { dofs_per_node, nodes } => {
                 write!(f, "no dof map: rows are taken as {dofs_per_node} a node, in the order of {}", file_name(nodes))
             }
+            Self::Transformed { path, line } => write!(
+                f,
+                "{}:{line}: *TRANSFORM gives nodes local directions, but rows are taken to be along the global axes, as CalculiX \
+                 writes them; where Abaqus writes the matrices, take it out of that deck",
+                file_name(path)
+            ),
+            Self::GridDirections { path, line } => write!(
+                f,
+                "{}:{line}: a grid point has its displacements in a coordinate system of its own (CD), but rows are taken to be \
+                 along the basic axes; write the matrices from a deck without CD",
+                file_name(path)
+            ),
+            Self::Expanded { path, positions, n_nodes, n_made } => write!(
+                f,
+                "{}: CalculiX made {n_made} nodes of {n_nodes} of shells, beams or cells in the plane; where they are is from {}",
+                file_name(path),
+                file_name(positions)
+            ),
+            Self::ExpandedUnsure { path, count, first } => write!(
+                f,
+                "{}: supports have taken rows of what was made of {}, the first is {first}; the rows left there are taken to \
+                 be those of the first nodes made",
+                file_name(path),
+                counted(*count, "node", "nodes")
+            ),
+            Self::Amplitudes { path, n_nodes, n_elements } => write!(
+                f,
+                "{}: {n_nodes} nodes that the deck does not list are amplitudes of incompatible modes in {}; rigid-body motion \
+                 leaves them at rest",
+                file_name(path),
+                counted(*n_elements, "element", "elements")
+            ),
             Self::UnusedNodes { path, count } => {
                 write!(f, "{}: {} no row", file_name(path), counted(*count, "node has", "nodes have"))
             }

@@ -5,20 +5,20 @@ use serde::{Deserialize, Serialize};
 use super::patch::{PatchFaces, Patches};
 use super::{Allowance, formats};
 use crate::error::Result;
-use crate::job::{InterfaceJob, Job, ModelJob, NodeSelection, Origin, Weights};
+use crate::job::{Coupling, InterfaceJob, Job, ModelJob, NodeSelection, Origin, Weights};
 use crate::regular_file::unchanged;
 
 /// Whether the cells of a mesh are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Cells {
-    /// A patch may need them.
+    /// A patch may need them, a pressure, or a picture of recovered nodes.
     Wanted,
-    /// No patch does.
+    /// Nothing does.
     Unwanted,
 }
 
 impl Cells {
-    /// What the interfaces of a job may need, and the file of its nodes may have.
+    /// What a job may need, and the file of its nodes may have.
     pub fn of(job: &Job) -> Self {
         let is_mesh = job
             .model
@@ -26,7 +26,10 @@ impl Cells {
             .as_deref()
             .and_then(|path| formats::of_nodes(path).ok())
             .is_some_and(|format| format.has_cells());
-        if is_mesh && job.interfaces.iter().any(looks_at_faces) { Self::Wanted } else { Self::Unwanted }
+        let is_wanted = job.interfaces.iter().any(looks_at_faces)
+            || job.loads.iter().any(|load| load.pressure.is_some())
+            || job.write.recovery.is_some();
+        if is_mesh && is_wanted { Self::Wanted } else { Self::Unwanted }
     }
 }
 
@@ -34,7 +37,10 @@ impl Cells {
 /// centroid.
 pub fn looks_at_faces(interface: &InterfaceJob) -> bool {
     let is_one = matches!(&interface.nodes, NodeSelection::Labels(labels) if labels.len() < 2);
-    let tell = matches!(interface.origin, Origin::Centroid | Origin::Area) || interface.weights == Some(Weights::Area);
+    // Where the job names no weights, quadratic faces say that equal ones are poor.
+    let weighs = interface.weights == Some(Weights::Area)
+        || interface.coupling == Coupling::Average && interface.weights.is_none();
+    let tell = matches!(interface.origin, Origin::Centroid | Origin::Area) || weighs;
     interface.coupling.is_patch() && tell && !is_one
 }
 
@@ -42,7 +48,7 @@ pub fn looks_at_faces(interface: &InterfaceJob) -> bool {
 ///
 /// # Errors
 /// Cells that cannot be those of the nodes, a file that cannot be read or changes meanwhile, more data than `allowance` has room for.
-pub fn patch_faces(model: &ModelJob, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
+pub fn patch_faces(model: &ModelJob, patches: &Patches<'_>, allowance: &Allowance) -> Result<Vec<PatchFaces>> {
     match &model.nodes {
         Some(path) if !patches.list.is_empty() => {
             let format = formats::of_nodes(path)?;

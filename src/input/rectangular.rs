@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use super::banner::{excerpt, is_comment};
-use super::entries::number;
+use super::fortran::real;
 use super::source::{Source, read_error};
 use crate::error::{Error, Result};
 
@@ -266,7 +266,7 @@ impl<'a> Lines<'a> {
         if !self.field(at + 1).is_empty() {
             return Err(Error::EntryExcess { path, line, found: excerpt(self.field(at + 1)) });
         }
-        match number(text) {
+        match real(text) {
             Some(value) if value.is_finite() => Ok(value),
             Some(_) => Err(Error::NonFinite { path, line, row: row + 1, col: column + 1, found: excerpt(text) }),
             None => Err(Error::EntryField { path, line, field: "value", found: excerpt(text), expected: "a number" }),

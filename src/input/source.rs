@@ -1,48 +1,97 @@
-//! Files as streams of bytes: gzip by its magic bytes, a bound on inflation, the digest on the way.
+//! Files as streams of bytes: unpacked where their first bytes say that they are packed, with a bound on what becomes of them, the digest
+//! on the way.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::MultiGzDecoder;
 
+use super::zstd::ZstdFrames;
 use crate::error::{Error, Result};
 use crate::regular_file;
 
-/// Inflation that is always too much, as deflate itself ends at 1032:1.
+/// Expansion that is always too much, as deflate itself ends at 1032:1.
 const MAX_RATIO: u64 = 1000;
-/// Inflation that is too much for large data. A line `row column value` costs deflate two bytes at least, so that
+/// Expansion that is too much for large data. A line `row column value` costs deflate two bytes at least, so that
 /// tables of numbers stay below 30:1.
 const MAX_RATIO_LARGE: u64 = 100;
-/// Inflated bytes below which no ratio is judged.
+/// Unpacked bytes below which no ratio is judged.
 const MIN_JUDGED_BYTES: u64 = 1 << 20;
-/// Inflated bytes above which the strict ratio holds.
+/// Unpacked bytes above which the strict ratio holds.
 const LARGE: u64 = 1 << 30;
 /// Bytes asked of the system at once.
 const READ_AHEAD: usize = 1 << 17;
 
-/// The bytes of a file, inflated where they are gzipped, in one or several members.
+/// How a file is packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Packing {
+    Gzip,
+    Bzip2,
+    Zstd,
+}
+
+impl Packing {
+    /// The packing of a file that begins with these bytes; none where it is not packed.
+    pub(super) fn of(head: &[u8]) -> Option<Self> {
+        const MAGIC: [(&[u8], Packing); 3] =
+            [(b"\x1f\x8b", Packing::Gzip), (b"BZh", Packing::Bzip2), (b"\x28\xb5\x2f\xfd", Packing::Zstd)];
+        MAGIC.into_iter().find(|(magic, _)| head.starts_with(magic)).map(|(_, packing)| packing)
+    }
+
+    /// What messages call data of it.
+    fn data(self) -> &'static str {
+        match self {
+            Self::Gzip => "gzipped data",
+            Self::Bzip2 => "data packed by bzip2",
+            Self::Zstd => "data packed by zstd",
+        }
+    }
+}
+
+/// The bytes of a file, unpacked where they are packed, in one or several members.
 pub(super) struct Source {
     stream: Stream,
-    inflated: u64,
+    unpacked: u64,
 }
 
 enum Stream {
     Plain(Box<BufReader<DigestReader>>),
     Gzip(Box<MultiGzDecoder<BufReader<DigestReader>>>),
+    Bzip2(Box<MultiBzDecoder<BufReader<DigestReader>>>),
+    Zstd(Box<ZstdFrames<BufReader<DigestReader>>>),
 }
 
 impl Source {
     /// Opens a regular file.
     pub(super) fn open(path: &Path) -> Result<Self> {
-        let read_error = |source| Error::Read { path: path.to_owned(), source };
+        let failed = |source| Error::Read { path: path.to_owned(), source };
         let file = regular_file::open(path)?;
+        let n_bytes = file.metadata().map_err(failed)?.len();
         let digest = DigestReader { file, hasher: blake3::Hasher::new(), n_read: 0 };
         let mut reader = BufReader::with_capacity(READ_AHEAD, digest);
-        let is_gzip = reader.fill_buf().map_err(read_error)?.starts_with(&[0x1f, 0x8b]);
-        let stream =
-            if is_gzip { Stream::Gzip(Box::new(MultiGzDecoder::new(reader))) } else { Stream::Plain(Box::new(reader)) };
-        Ok(Self { stream, inflated: 0 })
+        let stream = match Packing::of(reader.fill_buf().map_err(failed)?) {
+            None => Stream::Plain(Box::new(reader)),
+            Some(Packing::Gzip) => Stream::Gzip(Box::new(MultiGzDecoder::new(reader))),
+            Some(Packing::Bzip2) => Stream::Bzip2(Box::new(MultiBzDecoder::new(reader))),
+            Some(Packing::Zstd) => {
+                // A window is memory that a header asks for: no more than what may become of the file.
+                let window = n_bytes.saturating_mul(MAX_RATIO).max(MIN_JUDGED_BYTES);
+                Stream::Zstd(Box::new(ZstdFrames::new(reader, window)))
+            }
+        };
+        Ok(Self { stream, unpacked: 0 })
+    }
+
+    /// How the file is packed; none where it is not.
+    pub(super) fn packing(&self) -> Option<Packing> {
+        match self.stream {
+            Stream::Plain(_) => None,
+            Stream::Gzip(_) => Some(Packing::Gzip),
+            Stream::Bzip2(_) => Some(Packing::Bzip2),
+            Stream::Zstd(_) => Some(Packing::Zstd),
+        }
     }
 
     /// BLAKE3 of the file's bytes that were read, in lower-case hexadecimal; of the whole file once it is at its end.
@@ -54,15 +103,16 @@ impl Source {
         match &self.stream {
             Stream::Plain(reader) => reader.get_ref(),
             Stream::Gzip(decoder) => decoder.get_ref().get_ref(),
+            Stream::Bzip2(decoder) => decoder.get_ref().get_ref(),
+            Stream::Zstd(decoder) => decoder.get_ref().get_ref(),
         }
     }
 
-    fn check_inflation(&self) -> std::io::Result<()> {
-        let compressed = self.file().n_read;
-        let limit = if self.inflated > LARGE { MAX_RATIO_LARGE } else { MAX_RATIO };
-        if self.inflated > MIN_JUDGED_BYTES && self.inflated / limit > compressed {
-            let inflation = Inflation { compressed, inflated: self.inflated, limit };
-            return Err(std::io::Error::other(inflation));
+    fn check_expansion(&self, packing: Packing) -> std::io::Result<()> {
+        let packed = self.file().n_read;
+        let limit = if self.unpacked > LARGE { MAX_RATIO_LARGE } else { MAX_RATIO };
+        if self.unpacked > MIN_JUDGED_BYTES && self.unpacked / limit > packed {
+            return Err(std::io::Error::other(Expansion { packing, packed, unpacked: self.unpacked, limit }));
         }
         Ok(())
     }
@@ -70,23 +120,24 @@ impl Source {
 
 impl Read for Source {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        match &mut self.stream {
-            Stream::Plain(reader) => reader.read(buffer),
-            Stream::Gzip(decoder) => {
-                let n_read = decoder.read(buffer).map_err(damage)?;
-                self.inflated += n_read as u64;
-                self.check_inflation()?;
-                Ok(n_read)
-            }
-        }
+        let (packing, read) = match &mut self.stream {
+            Stream::Plain(reader) => return reader.read(buffer),
+            Stream::Gzip(decoder) => (Packing::Gzip, decoder.read(buffer)),
+            Stream::Bzip2(decoder) => (Packing::Bzip2, decoder.read(buffer)),
+            Stream::Zstd(decoder) => (Packing::Zstd, decoder.read(buffer)),
+        };
+        let n_read = read.map_err(|error| damage(packing, error))?;
+        self.unpacked += n_read as u64;
+        self.check_expansion(packing)?;
+        Ok(n_read)
     }
 }
 
 /// Marks what the decoder found wrong in the data, as opposed to what the system said.
-fn damage(error: std::io::Error) -> std::io::Error {
+fn damage(packing: Packing, error: std::io::Error) -> std::io::Error {
     use std::io::ErrorKind::{InvalidData, InvalidInput, UnexpectedEof};
     match error.kind() {
-        InvalidData | InvalidInput | UnexpectedEof => std::io::Error::other(Damage(error)),
+        InvalidData | InvalidInput | UnexpectedEof => std::io::Error::other(Damage(packing, error)),
         _ => error,
     }
 }
@@ -94,10 +145,12 @@ fn damage(error: std::io::Error) -> std::io::Error {
 /// The error of reading `path` that an I/O error of a [`Source`] stands for.
 pub(super) fn read_error(path: &Path, error: std::io::Error) -> Error {
     let path: PathBuf = path.to_owned();
-    match error.downcast::<Inflation>() {
-        Ok(Inflation { compressed, inflated, limit }) => Error::GzipInflation { path, compressed, inflated, limit },
+    match error.downcast::<Expansion>() {
+        Ok(Expansion { packing, packed, unpacked, limit }) => {
+            Error::PackedExpansion { path, data: packing.data(), packed, unpacked, limit }
+        }
         Err(error) => match error.downcast::<Damage>() {
-            Ok(Damage(source)) => Error::GzipDamaged { path, source },
+            Ok(Damage(packing, source)) => Error::PackedDamaged { path, data: packing.data(), source },
             Err(source) => Error::Read { path, source },
         },
     }
@@ -119,16 +172,17 @@ impl Read for DigestReader {
     }
 }
 
-/// Gzipped data that inflate beyond reason.
+/// Packed data that expand beyond reason.
 #[derive(Debug, thiserror::Error)]
-#[error("{compressed} bytes inflate to {inflated}")]
-struct Inflation {
-    compressed: u64,
-    inflated: u64,
+#[error("{packed} bytes become {unpacked}")]
+struct Expansion {
+    packing: Packing,
+    packed: u64,
+    unpacked: u64,
     limit: u64,
 }
 
-/// Gzipped data that the decoder refuses.
+/// Packed data that the decoder refuses.
 #[derive(Debug, thiserror::Error)]
-#[error(transparent)]
-struct Damage(std::io::Error);
+#[error("{1}")]
+struct Damage(Packing, std::io::Error);

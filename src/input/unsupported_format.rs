@@ -16,8 +16,8 @@ pub(super) enum Wanted {
 impl Wanted {
     fn expected(self) -> &'static str {
         match self {
-            Self::Matrix => "a matrix in Matrix Market, HDF5 or lines `row column value`",
-            Self::Table => "a table, a dof map, or a mesh as XDMF, MED or HDF5",
+            Self::Matrix => "a matrix: docs/formats.md lists every format",
+            Self::Table => "a table, a dof map, or a mesh: docs/meshes.md lists every format",
         }
     }
 }
@@ -29,6 +29,10 @@ const FROM_DECK: &str =
     "have the program write its matrices (CalculiX: *FREQUENCY, SOLVER=MATRIXSTORAGE; Abaqus: *MATRIX GENERATE)";
 /// What to do where numbers of Python were given for a table.
 const AS_TABLE: &str = "write the numbers as a table with the header node,x,y,z, or as node.direction for each row";
+
+/// What to do where a mesh was given for a dof map.
+const AS_NODES: &str =
+    "it has nodes and no rows: give it as model.nodes, and as dof map the one written with the matrices";
 
 /// What to do with text in another encoding.
 const AS_UTF8: &str = "write it as UTF-8 (in PowerShell: Get-Content FILE | Set-Content -Encoding utf8 NEW)";
@@ -43,12 +47,12 @@ struct Foreign {
 }
 
 /// The formats, the more particular first.
-const FORMATS: [Foreign; 9] = [
+const FORMATS: [Foreign; 11] = [
     Foreign { begins: |start| is_utf16(&start.head), found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
     Foreign {
         begins: |start| start.head.starts_with(b"PK") && start.holds(b".npy"),
         found: "a NumPy archive (.npz)",
-        for_matrix: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.load_npz(\"K.npz\"), precision=17)",
+        for_matrix: AS_TABLE,
         for_table: AS_TABLE,
     },
     Foreign {
@@ -58,39 +62,51 @@ const FORMATS: [Foreign; 9] = [
         for_table: "unpack it",
     },
     Foreign {
+        begins: |start| start.packing.is_some() && start.begins_as_hdf5(),
+        found: "a packed HDF5 file",
+        for_matrix: "unpack it",
+        for_table: "unpack it",
+    },
+    Foreign {
         begins: |start| start.head.starts_with(b"\x93NUMPY"),
         found: "a NumPy array (.npy)",
-        for_matrix: "write it by scipy.io.mmwrite(\"K.mtx\", scipy.sparse.csc_matrix(numpy.load(\"K.npy\")), precision=17)",
+        for_matrix: AS_TABLE,
         for_table: AS_TABLE,
     },
     Foreign {
         begins: |start| start.head.starts_with(b"MATLAB 5.0"),
         found: "a MATLAB file of version 7 or older (.mat)",
-        for_matrix: "save it with -v7.3, which is HDF5, as in save('K.mat', 'K', '-v7.3')",
+        for_matrix: AS_TABLE,
         for_table: AS_TABLE,
     },
     Foreign {
         begins: |start| start.lines().next().is_some_and(|line| line.starts_with(b"$MeshFormat")),
         found: "a Gmsh mesh (.msh)",
         for_matrix: NO_MATRIX,
-        for_table: "convert it by `meshio convert mesh.msh mesh.xdmf`",
+        for_table: AS_NODES,
     },
     Foreign {
         begins: |start| start.head.starts_with(b"    1C"),
         found: "a CalculiX result file (.frd)",
         for_matrix: NO_MATRIX,
-        for_table: "take the nodes of the deck, by `meshio convert deck.inp mesh.xdmf`",
+        for_table: AS_NODES,
     },
     Foreign {
         begins: begins_as_deck,
         found: "an input deck of Abaqus or CalculiX (.inp)",
         for_matrix: FROM_DECK,
-        for_table: "take the nodes by `meshio convert deck.inp mesh.xdmf`",
+        for_table: AS_NODES,
+    },
+    Foreign {
+        begins: |start| start.head.starts_with(b"@(#)ADF") || start.holds(b"ADF Database Version"),
+        found: "a CGNS file in ADF",
+        for_matrix: NO_MATRIX,
+        for_table: "convert it by `adf2hdf`",
     },
     Foreign {
         begins: begins_as_bulk,
         found: "a Nastran deck (.bdf)",
-        for_matrix: "have the program write its matrices (DMIG or OP4, read by pyNastran and written by scipy.io.mmwrite)",
+        for_matrix: "have the program write its matrices (DMIG or OP4)",
         for_table: "take the nodes by `meshio convert deck.bdf mesh.xdmf`",
     },
 ];
@@ -116,8 +132,8 @@ fn begins_as_deck(start: &FileStart<'_>) -> bool {
 }
 
 /// A section of a Nastran deck or its first card, below comments of a dollar.
-fn begins_as_bulk(start: &FileStart<'_>) -> bool {
-    const SECTIONS: [&[u8]; 3] = [b"SOL ", b"CEND", b"BEGIN BULK"];
+pub(super) fn begins_as_bulk(start: &FileStart<'_>) -> bool {
+    const SECTIONS: [&[u8]; 5] = [b"SOL ", b"CEND", b"BEGIN BULK", b"BEGIN SUPER", b"SEBULK"];
     let line = start.lines().find(|line| !line.starts_with(b"$")).unwrap_or_default().to_ascii_uppercase();
     SECTIONS.iter().any(|word| line.starts_with(word)) || line.strip_prefix(b"GRID").is_some_and(is_rest_of_card)
 }

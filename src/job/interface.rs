@@ -110,7 +110,7 @@ pub enum Weights {
 #[serde(untagged, expecting = "expected \"hole\" or the directions { z = [x, y, z], x = [x, y, z] }")]
 pub enum Axes {
     /// `"hole"`: z along the axis of a cylinder fitted to the patch's nodes, x along what it leaves of the axis of the model that it
-    /// leaves most of.
+    /// leaves most of, the first of those that it leaves alike.
     #[serde(with = "hole")]
     #[schemars(schema_with = "hole::schema")]
     Hole,

@@ -12,24 +12,31 @@ use super::selection::{self, Selection};
 use super::whole;
 use crate::error::{Error, Result, Selector};
 
-/// A load that the superelement carries by name: forces on nodes, a column of a file, or the centrifugal load of a rotation.
+/// A load that the superelement carries by name: forces on nodes, a pressure on faces, a column of a file, or the centrifugal load of a
+/// rotation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "dependentRequired" = { "nodes": ["force"], "force": ["nodes"], "column": ["file"] },
-    "allOf" = [{ "oneOf": [{ "required": ["nodes"] }, { "required": ["file"] }, { "required": ["rotation"] }] }],
+    "dependentRequired" = { "force": ["nodes"], "pressure": ["nodes"], "column": ["file"] },
+    "allOf" = [{ "oneOf": [
+        { "required": ["nodes", "force"] }, { "required": ["nodes", "pressure"] }, { "required": ["file"] }, { "required": ["rotation"] },
+    ] }, { "not": { "required": ["nodes", "file"] } }, { "not": { "required": ["nodes", "rotation"] } }],
 ))]
 pub struct LoadJob {
     /// Name, unique among the loads of the job.
     #[schemars(regex(pattern = r"\S"))]
     pub name: String,
-    /// Which nodes share out `force`.
+    /// Which nodes share out `force`, or between which faces take `pressure`.
     #[schemars(schema_with = "nodes_by_name")]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nodes: Option<NodeSelection>,
     /// Total force along x, y and z, in units of the stiffness times a displacement; each of the nodes takes an equal share.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<[f64; 3]>,
+    /// Pressure on the faces of the mesh all of whose nodes are selected, in units of force per area; above zero it pushes against them.
+    #[schemars(range(min = -ranges::LARGEST, max = ranges::LARGEST), extend("not" = { "const": 0 }))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
     /// Matrix Market file with a force for every row of the matrices.
     #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -67,6 +74,8 @@ pub struct RotationJob {
 pub enum LoadPattern<'a> {
     /// A total force, shared out among nodes.
     Force(&'a NodeSelection, &'a [f64; 3]),
+    /// A pressure on the faces between nodes.
+    Pressure(&'a NodeSelection, f64),
     /// A column of a file.
     File(&'a Path, Option<usize>),
     /// The centrifugal load per ω².
@@ -79,10 +88,12 @@ impl LoadJob {
     /// # Errors
     /// [`Error::LoadKeys`] where keys are missing or contradict each other.
     pub fn pattern(&self) -> Result<LoadPattern<'_>> {
-        match (&self.nodes, &self.force, &self.file, self.column, &self.rotation) {
-            (Some(nodes), Some(force), None, None, None) => Ok(LoadPattern::Force(nodes, force)),
-            (None, None, Some(file), column, None) => Ok(LoadPattern::File(file, column)),
-            (None, None, None, None, Some(rotation)) => Ok(LoadPattern::Rotation(rotation)),
+        let on_nodes = (self.force.as_ref(), self.pressure);
+        match (&self.nodes, on_nodes, &self.file, self.column, &self.rotation) {
+            (Some(nodes), (Some(force), None), None, None, None) => Ok(LoadPattern::Force(nodes, force)),
+            (Some(nodes), (None, Some(pressure)), None, None, None) => Ok(LoadPattern::Pressure(nodes, pressure)),
+            (None, (None, None), Some(file), column, None) => Ok(LoadPattern::File(file, column)),
+            (None, (None, None), None, None, Some(rotation)) => Ok(LoadPattern::Rotation(rotation)),
             _ => Err(Error::LoadKeys { load: self.name.clone(), found: self.keys() }),
         }
     }
@@ -92,11 +103,17 @@ impl LoadJob {
         let keys = [
             ("nodes", self.nodes.is_some()),
             ("force", self.force.is_some()),
+            ("pressure", self.pressure.is_some()),
             ("file", self.file.is_some()),
             ("column", self.column.is_some()),
             ("rotation", self.rotation.is_some()),
         ];
         keys.into_iter().filter(|(_, is_there)| *is_there).map(|(key, _)| key).collect()
+    }
+
+    /// The nodes between which its pressure acts on faces, where it is one.
+    pub fn pressed(&self) -> Option<Selection<'_>> {
+        self.pressure.and(self.nodes.as_ref()).map(|nodes| self.selection(nodes))
     }
 
     /// The nodes that it selects, with the name for messages.
@@ -118,6 +135,10 @@ pub(super) fn validate(loads: &[LoadJob]) -> Result<()> {
             LoadPattern::Force(nodes, force) => {
                 selection::validate(&load.selection(nodes), &place)?;
                 ranges::direction(&format!("{place}.force"), force)?;
+            }
+            LoadPattern::Pressure(nodes, pressure) => {
+                selection::validate(&load.selection(nodes), &place)?;
+                ranges::not_zero(&format!("{place}.pressure"), pressure)?;
             }
             LoadPattern::File(path, _) if path.as_os_str().is_empty() => {
                 return Err(Error::JobEmpty { key: format!("{place}.file"), expected: "the name of a file" });

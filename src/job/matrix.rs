@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use supel_runtime::MatrixKind;
 
+use super::layout::Layout;
 use crate::error::{Error, Result};
 
 /// A matrix A of the model in addition to stiffness and mass, of which the superelement keeps ΨᵀAΨ with its skew part.
@@ -17,9 +18,13 @@ pub struct MatrixJob {
     pub name: String,
     /// What it is.
     pub kind: MatrixKind,
-    /// Matrix Market file with a banner, or a group in an HDF5 file as in `model.h5:/C`: rows and columns are those of stiffness and mass.
+    /// File of the matrix, with its name in the file after a colon where there are several, as in `model.h5:/C` and `model.op4:BAA`: rows and
+    /// columns are those of stiffness and mass.
     #[schemars(length(min = 1), extend("x-role" = "place"))]
     pub file: PathBuf,
+    /// The format of the file, where its content leaves several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layout: Option<Layout>,
 }
 
 pub(super) fn validate(matrices: &[MatrixJob]) -> Result<()> {

@@ -31,6 +31,12 @@ pub(super) fn size(key: &str, value: f64) -> Result<()> {
     if (SMALLEST..=LARGEST).contains(&value) { Ok(()) } else { Err(number(key.to_owned(), value, SIZE)) }
 }
 
+/// A number of either sign that is multiplied with others.
+pub(super) fn not_zero(key: &str, value: f64) -> Result<()> {
+    let expected = "a number of either sign, of at most 1e48 in size and not zero";
+    if value != 0.0 && value.abs() <= LARGEST { Ok(()) } else { Err(number(key.to_owned(), value, expected)) }
+}
+
 /// A number of significant digits.
 pub(super) fn digits(key: &str, value: usize) -> Result<()> {
     if (1..=MAX_DIGITS).contains(&value) { Ok(()) } else { Err(number(key.to_owned(), value as f64, DIGITS)) }

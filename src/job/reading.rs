@@ -6,10 +6,13 @@ use std::path::{Path, PathBuf};
 use supel_runtime::{Flag, MatrixKind};
 
 use super::accept::AcceptJob;
+use super::analysis::AnalysisJob;
 use super::damping::{ComponentDampingJob, RigidMotionDamping};
+use super::gravity::GravityJob;
 use super::location::Holder;
 use super::reduction::ModesJob;
-use super::types::{Certify, ConstraintsToGround, Job, ModelState};
+use super::scene::SceneJob;
+use super::types::{Certify, ConstraintsToGround, Job, ModelState, Skip};
 use super::{document, validation};
 use crate::error::{Error, Result};
 
@@ -81,6 +84,20 @@ impl Job {
         self.damping.as_ref().map_or_else(RigidMotionDamping::default, |damping| damping.rigid_motion)
     }
 
+    /// Whether nothing that is asked depends on the mass: statics of an unloaded state, without gravity, loads of inertia or a mass to be
+    /// compared.
+    pub fn does_without_mass(&self) -> bool {
+        let is_static = |scene: &&SceneJob| scene.analysis == Some(AnalysisJob::Static);
+        let is_still = |scene: &SceneJob| scene.gravity == Some(GravityJob::Anywhere(false));
+        let has_inertia_loads = self.loads.iter().any(|load| load.rotation.is_some());
+        self.scene.as_ref().filter(is_static).is_some_and(is_still)
+            && self.run.skip == Skip::ByScene
+            && !has_inertia_loads
+            && self.added_masses.is_empty()
+            && self.model.expect.is_none()
+            && self.model.state == ModelState::Unloaded
+    }
+
     /// The errors that the scene accepts; where it says nothing, of no kind.
     pub fn accepted(&self) -> AcceptJob {
         self.scene.as_ref().and_then(|scene| scene.accept).unwrap_or_default()
@@ -124,7 +141,7 @@ impl Job {
         };
         let paths = [
             ("model.stiffness", Some(&mut model.stiffness)),
-            ("model.mass", Some(&mut model.mass)),
+            ("model.mass", model.mass.as_mut()),
             ("model.dofs", model.dofs.as_mut()),
             ("model.nodes", model.nodes.as_mut()),
             ("model.constraints", model.constraints.as_mut()),

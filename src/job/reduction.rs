@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::held_interface::HeldInterface;
+use super::interface_part::InterfacePart;
 use super::method::Method;
 use super::ranges::{LARGEST, SMALLEST};
 use crate::eigen::Eigensolver;
@@ -16,10 +16,9 @@ use crate::eigen::Eigensolver;
 #[schemars(extend(
     "if" = { "properties": { "method": { "const": "guyan" } } },
     "then" = { "not": { "required": ["modes"] } },
-    "else" = { "required": ["modes"] },
     "allOf" = [{
         "if": { "properties": { "method": { "const": "mode-acceleration" } } },
-        "then": { "properties": { "modes": { "required": ["file"] } } },
+        "then": { "required": ["modes"], "properties": { "modes": { "required": ["file"] } } },
         "else": { "properties": { "modes": { "not": { "required": ["file"] } } } },
     }, {
         "if": { "properties": { "method": { "const": "mixed-interface" } } },
@@ -30,7 +29,8 @@ use crate::eigen::Eigensolver;
 pub struct ReductionJob {
     /// The method.
     pub method: Method,
-    /// How many elastic modes, or the file that has them with mode acceleration; Guyan's method keeps none, every other one needs it.
+    /// How many elastic modes, or the file that has them with mode acceleration; Guyan's method keeps none. Where it is absent, the band of
+    /// the scene decides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub modes: Option<ModesJob>,
     /// Whether inertia-relief modes join the basis: the answers to unit accelerations of the free component, which the methods of free
@@ -40,7 +40,7 @@ pub struct ReductionJob {
     /// What is held while mixed-interface modes are computed: `"base"`, an interface, or `"hub.ux"`, a direction of one; the rest of the
     /// interfaces is free. An empty list holds nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub held: Option<Vec<HeldInterface>>,
+    pub held: Option<Vec<InterfacePart>>,
     /// Which eigensolver finds them.
     #[serde(default)]
     #[schemars(extend("x-role" = "way"))]

@@ -121,7 +121,9 @@ fn alternatives<'a>(schema: &'a Value, part: &'a Value) -> Vec<&'a Value> {
     if let Some(target) = target {
         return alternatives(schema, target);
     }
-    let choices = ["oneOf", "anyOf"].into_iter().find_map(|key| part.get(key)?.as_array());
+    // Choices next to keys of its own are conditions on them, not other tables.
+    let mut keys = ["oneOf", "anyOf"].into_iter().filter(|_| part.get("properties").is_none());
+    let choices = keys.find_map(|key| part.get(key)?.as_array());
     choices
         .map_or_else(|| vec![part], |choices| choices.iter().flat_map(|choice| alternatives(schema, choice)).collect())
 }

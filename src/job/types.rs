@@ -14,6 +14,7 @@ use super::added_mass::AddedMassJob;
 use super::damping::ComponentDampingJob;
 use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
+use super::layout::Layout;
 use super::load::LoadJob;
 use super::matrix::MatrixJob;
 use super::quantities::QuantitiesJob;
@@ -28,6 +29,25 @@ use crate::sparse::Triangle;
 /// What to read, how to reduce and what to write. Paths are relative to the folder of the document.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "if" = { "required": ["scene"], "properties": { "scene": { "required": ["band_hz"] } } },
+    "else" = { "properties": { "reduction": { "anyOf": [
+        { "required": ["modes"] },
+        { "properties": { "method": { "const": "guyan" } } },
+    ] } } },
+    "anyOf" = [
+        { "properties": { "model": { "required": ["mass"] } } },
+        {
+            "required": ["scene"],
+            "properties": {
+                "scene": {
+                    "required": ["analysis", "gravity"],
+                    "properties": { "analysis": { "const": "static" }, "gravity": { "const": false } },
+                },
+            },
+        },
+    ],
+))]
 pub struct Job {
     /// The finite element model.
     pub model: ModelJob,
@@ -74,10 +94,11 @@ pub struct ModelJob {
     #[schemars(length(min = 1))]
     #[schemars(extend("x-role" = "place"))]
     pub stiffness: PathBuf,
-    /// File of M.
+    /// File of M; a static scene without gravity needs none.
     #[schemars(length(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-role" = "place"))]
-    pub mass: PathBuf,
+    pub mass: Option<PathBuf>,
     /// File that says which node and direction each row is.
     #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -88,6 +109,9 @@ pub struct ModelJob {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-role" = "place-of-one"))]
     pub nodes: Option<PathBuf>,
+    /// The format of the files of K and M, where their content leaves several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layout: Option<Layout>,
     /// The triangle of K and M that holds, where the other is incomplete.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symmetric: Option<Triangle>,
@@ -247,6 +271,42 @@ impl Precision {
     }
 }
 
+/// How the constraint modes are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ConstraintStorage {
+    /// Stored up to a GiB, or where rows of them are asked for.
+    #[default]
+    Auto,
+    /// Stored.
+    Stored,
+    /// Made by the factor whenever they are needed, some at a time: more solves in the place of memory.
+    ByFactor,
+}
+
+impl ConstraintStorage {
+    fn is_auto(&self) -> bool {
+        *self == Self::Auto
+    }
+}
+
+/// Which work a run leaves out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Skip {
+    /// What the scene never asks.
+    #[default]
+    ByScene,
+    /// Nothing: whatever could be asked is computed, to compare it with.
+    Nothing,
+}
+
+impl Skip {
+    fn is_by_scene(&self) -> bool {
+        *self == Self::ByScene
+    }
+}
+
 /// How the run is done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -264,6 +324,14 @@ pub struct RunJob {
     #[serde(default, skip_serializing_if = "Precision::is_double")]
     #[schemars(extend("default" = "double", "x-role" = "way"))]
     pub precision: Precision,
+    /// How the constraint modes are kept.
+    #[serde(default, skip_serializing_if = "ConstraintStorage::is_auto")]
+    #[schemars(extend("default" = "auto", "x-role" = "way"))]
+    pub constraint_modes: ConstraintStorage,
+    /// What the run leaves out.
+    #[serde(default, skip_serializing_if = "Skip::is_by_scene")]
+    #[schemars(extend("default" = "by-scene"))]
+    pub skip: Skip,
 }
 
 /// What is written and where.

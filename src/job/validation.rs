@@ -7,8 +7,9 @@ use super::interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights}
 use super::method::{Boundary, ModeOrigin};
 use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
-use super::reduction::{ModeSelection, ModesJob, ReductionJob};
+use super::reduction::{ModeSelection, ModesJob};
 use super::selection;
+use super::statements;
 use super::types::{Job, ModelState};
 use crate::dofs::Direction;
 use crate::error::{Error, Result, Selector};
@@ -17,14 +18,14 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     model(job)?;
     super::added_mass::validate(&job.added_masses)?;
     interfaces(&job.interfaces)?;
-    reduction(&job.reduction)?;
-    held(&job.reduction, &job.interfaces)?;
+    reduction(job)?;
+    held(job)?;
     super::fixed::validate(&job.fixed)?;
     super::load::validate(&job.loads)?;
     super::matrix::validate(&job.matrices)?;
     job.damping.as_ref().map_or(Ok(()), super::damping::validate)?;
     if let Some(scene) = &job.scene {
-        super::scene::validate(scene, &job.interfaces)?;
+        super::scene_validation::validate(scene, &job.interfaces)?;
     }
     if let Some(memory) = job.run.memory_gib {
         positive("run.memory_gib", memory)?;
@@ -41,12 +42,18 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     others.into_iter().try_for_each(|(key, path, ending)| path.map_or(Ok(()), |path| ends_in(key, path, ending)))
 }
 
-fn reduction(job: &ReductionJob) -> Result<()> {
+fn reduction(job: &Job) -> Result<()> {
+    // The band decides how many modes are kept where nothing else does.
+    let has_band = job.scene.as_ref().is_some_and(|scene| scene.band_hz.is_some());
+    let job = &job.reduction;
     let method = job.method.key();
-    let computed = format!("expected how many modes {method} keeps: {{ count = 40 }} or {{ up_to_hz = 1000 }}");
+    let computed = format!(
+        "expected how many modes {method} keeps: {{ count = 40 }} or {{ up_to_hz = 1000 }}, or a `band_hz` of the scene"
+    );
     let of_file = format!("expected the file of the modes that {method} takes: {{ file = \"modes.mtx\" }}");
     let refuse = |found, expected| Err(Error::JobModes { found, expected });
     match (job.method.modes(), &job.modes) {
+        (ModeOrigin::Computed, None) if has_band => Ok(()),
         (ModeOrigin::Computed, None) => refuse("missing", computed),
         (ModeOrigin::Computed, Some(ModesJob::File { .. })) => refuse("a file", computed),
         (ModeOrigin::File, None) => refuse("missing", of_file),
@@ -65,16 +72,20 @@ fn reduction(job: &ReductionJob) -> Result<()> {
 }
 
 /// Checks that what is held is there with the method that takes it, and names interfaces.
-fn held(job: &ReductionJob, interfaces: &[InterfaceJob]) -> Result<()> {
-    let held = match (&job.held, job.method.boundary() == Boundary::MixedInterface) {
+fn held(Job { reduction, interfaces, scene, .. }: &Job) -> Result<()> {
+    let held = match (&reduction.held, reduction.method.boundary() == Boundary::MixedInterface) {
         (Some(held), true) => held,
         (None, false) => return Ok(()),
         (found, _) => {
             let found = if found.is_some() { "given" } else { "missing" };
-            return Err(Error::JobHeld { found, method: job.method.key() });
+            return Err(Error::JobHeld { found, method: reduction.method.key() });
         }
     };
-    let names: BTreeSet<&str> = interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    let carriers = scene.iter().flat_map(|scene| &scene.prescribed).map(|carrier| carrier.name.as_str());
+    let names: BTreeSet<&str> = interfaces.iter().map(|interface| interface.name.as_str()).chain(carriers).collect();
+    if let Some(scene) = scene {
+        held.iter().try_for_each(|held| statements::refuse_held(scene, interfaces, held))?;
+    }
     match held.iter().find(|held| held.of(|name| names.contains(name)).is_none()) {
         None => Ok(()),
         Some(held) => {
@@ -86,9 +97,12 @@ fn held(job: &ReductionJob, interfaces: &[InterfaceJob]) -> Result<()> {
 
 fn model(job: &Job) -> Result<()> {
     let model = &job.model;
+    if model.mass.is_none() && !job.does_without_mass() {
+        return Err(Error::JobMass);
+    }
     let files = [
         ("model.stiffness", Some(&model.stiffness)),
-        ("model.mass", Some(&model.mass)),
+        ("model.mass", model.mass.as_ref()),
         ("model.dofs", model.dofs.as_ref()),
         ("model.nodes", model.nodes.as_ref()),
         ("model.constraints", model.constraints.as_ref()),

@@ -57,14 +57,27 @@ impl<'a> BoundaryProblem<'a> {
         }
         let problem = self.modal();
         self.refuse_massless()?;
-        if self.component.is_modal() {
+        let Some(constraint) = constraint.filter(|_| !self.component.is_modal()) else {
             return self.with_operator_below(solve);
-        }
+        };
         if let (Some(rigid), Some(free)) = (&rigid.passing, partition.free_under(self.boundary)) {
             let statics = FreeStatics::of(factor, problem.stiffness, (free, partition.n_interface()));
             return self.with_operator_at_zero((statics.operator(rigid)?, rigid), solve);
         }
         self.with_operator_at_zero((FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?, rigid), solve)
+    }
+
+    /// Hands an operator to `solve` whose matrix is definite: K where the component is held, otherwise K − σM with σ below the spectrum.
+    ///
+    /// # Errors
+    /// The errors of [`shifted`] and those of `solve`.
+    pub(crate) fn with_definite_operator<T>(&self, solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>) -> Result<T> {
+        match self.boundary {
+            Boundary::FixedInterface => solve(&Factored::new(self.component.factor, 0.0)),
+            Boundary::FreeInterface | Boundary::MixedInterface => {
+                self.with_operator_below(solve).map(|(found, _)| found)
+            }
+        }
     }
 
     /// Hands an operator at zero to `solve` where it holds up, and one below zero where it does not.
@@ -280,6 +293,7 @@ mod tests {
             stiffness: matrix(&k),
             mass: matrix(&m),
             dofs: None,
+            labels: Default::default(),
             nodes: None,
             rows: Default::default(),
             constraints: None,

@@ -119,29 +119,33 @@ pub fn certified(
             true => Some(most_finite(problem, modes.count() + problem.n_rigid())?),
             false => None,
         };
-        Ok(Certificate { n_finite, ..certify_modes(problem, modes, edge, n_finite)? })
+        Ok(Certificate { n_finite, ..certify_modes((problem, source), modes, edge, n_finite)? })
     };
     let first = certify_modes(&found)?;
     if first.holds() {
         return Ok((found, Some(first)));
     }
     let mut n_factorisations = first.n_factorisations;
-    let again = source.lowest(SEED + 1)?;
-    let second = certify_modes(&again)?;
-    n_factorisations += second.n_factorisations;
-    if second.holds() {
-        return Ok((again, Some(Certificate { mending: Mending::Restart, n_factorisations, ..second })));
-    }
-    // The larger set is the better start for the slices.
-    let (known, last) = if again.count() >= found.count() { (again, second) } else { (found, first) };
-    let upper = ElasticCount { inertia: last.count, n_elastic: last.n_counted.saturating_sub(problem.n_rigid()) };
+    let (known, last) = match source.again(SEED + 1)? {
+        None => (found, first),
+        Some(again) => {
+            let second = certify_modes(&again)?;
+            n_factorisations += second.n_factorisations;
+            if second.holds() {
+                return Ok((again, Some(Certificate { mending: Mending::Restart, n_factorisations, ..second })));
+            }
+            // The larger set is the better start for the slices.
+            if again.count() >= found.count() { (again, second) } else { (found, first) }
+        }
+    };
+    let upper = ElasticCount { inertia: last.count, n_elastic: Begin::of(problem, source).n_elastic(last.n_counted) };
     let mut ends = known.counts.clone();
     ends.retain(|end| end.inertia.sigma < upper.inertia.sigma);
     ends.push(upper);
     let known = Modes { counts: Vec::new(), ..known };
     let modes = Band { source, problem, at_once: 1 }.fill(known, &ends)?;
     let upper = modes.counts.last().copied().unwrap_or(upper);
-    let third = judge(problem, &modes, upper);
+    let third = judge((problem, source), &modes, upper);
     let n_finite = last.n_finite.filter(|_| source.is_exhausted_by(&modes));
     if !third.holds() {
         return Err(missing(problem, &modes, upper));
@@ -163,7 +167,7 @@ pub fn certified(
 /// Takes the count at the upper end and compares: at a count taken before where one serves, above all that can be where modes
 /// are fewer than `n_finite`, otherwise in the gap above the highest mode.
 fn certify_modes(
-    problem: &BoundaryProblem<'_>,
+    (problem, source): (&BoundaryProblem<'_>, &dyn ModeSource),
     modes: &Modes,
     edge: Option<ElasticCount>,
     n_finite: Option<usize>,
@@ -177,7 +181,7 @@ fn certify_modes(
         is_above && modes.next.is_none_or(|next| sigma < next && modes.is_clear(sigma))
     };
     for end in edge.into_iter().chain(modes.counts.last().copied()).filter(serves) {
-        let certificate = judge(problem, modes, end);
+        let certificate = judge((problem, source), modes, end);
         if certificate.doubt() <= 1.0 {
             return Ok(certificate);
         }
@@ -189,7 +193,8 @@ fn certify_modes(
         let counted = problem.count_at(sigma).and_then(|(count, is_off)| Ok((count?, is_off)));
         match counted {
             Ok((count, is_off)) => {
-                let certificate = Certificate { n_factorisations: attempt + 1, ..judge(problem, modes, count) };
+                let certificate =
+                    Certificate { n_factorisations: attempt + 1, ..judge((problem, source), modes, count) };
                 if !is_off {
                     near.push(certificate);
                     continue;
@@ -217,19 +222,55 @@ fn agreed(near: Vec<Certificate>) -> Option<Certificate> {
     (near.len() >= PLACES.len() && agree).then(|| near.into_iter().next()).flatten()
 }
 
+/// Where a band begins: a shift with the count below it, or below the zero modes, which are in the band then.
+struct Begin {
+    sigma: f64,
+    n_below: usize,
+    n_rigid: usize,
+    count: Option<ElasticCount>,
+}
+
+impl Begin {
+    fn of(problem: &BoundaryProblem<'_>, source: &dyn ModeSource) -> Self {
+        match source.begin() {
+            Some(count) => {
+                let (sigma, n_below) = count.place();
+                Self { sigma, n_below, n_rigid: 0, count: Some(count) }
+            }
+            None => Self { sigma: lower_end(problem), n_below: 0, n_rigid: problem.n_rigid(), count: None },
+        }
+    }
+
+    /// Elastic eigenvalues below a shift under which the band has `n_counted`.
+    fn n_elastic(&self, n_counted: usize) -> usize {
+        (n_counted + self.n_below).saturating_sub(self.n_rigid)
+    }
+
+    /// Eigenvalues of the band below a shift with so many elastic ones below it.
+    fn n_in_band(&self, n_elastic: usize) -> usize {
+        (n_elastic + self.n_rigid).saturating_sub(self.n_below)
+    }
+}
+
 /// Compares the counts up to an upper end with the modes.
-fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> Certificate {
-    let n_rigid = problem.n_rigid();
+fn judge(
+    (problem, source): (&BoundaryProblem<'_>, &dyn ModeSource),
+    modes: &Modes,
+    upper: ElasticCount,
+) -> Certificate {
+    let begin = Begin::of(problem, source);
     let mut ends: Vec<ElasticCount> = modes.counts.clone();
-    ends.retain(|end| end.inertia.sigma < upper.inertia.sigma);
+    ends.retain(|end| begin.sigma < end.inertia.sigma && end.inertia.sigma < upper.inertia.sigma);
     ends.push(upper);
     let mass_floors = mass_floors(problem, modes);
-    let (mut from, mut below, mut lower) = (lower_end(problem), 0, (1.0, f64::INFINITY));
+    let limit_at = |sigma: f64| growth_limit(problem, modes, &mass_floors, sigma);
+    let (mut from, mut below) = (begin.sigma, begin.n_below);
+    let mut lower = begin.count.map_or((1.0, f64::INFINITY), |count| (count.inertia.growth, limit_at(begin.sigma)));
     let mut intervals = Vec::with_capacity(ends.len());
     for end in ends {
         let to = end.inertia.sigma;
-        let limit = growth_limit(problem, modes, &mass_floors, to);
-        let rigid = if intervals.is_empty() { n_rigid } else { 0 };
+        let limit = limit_at(to);
+        let rigid = if intervals.is_empty() { begin.n_rigid } else { 0 };
         intervals.push(CountedInterval {
             from,
             to,
@@ -241,11 +282,12 @@ fn judge(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> C
         });
         (from, below, lower) = (to, end.n_elastic, (end.inertia.growth, limit));
     }
+    let lowest = if begin.count.is_some() { begin.sigma } else { f64::NEG_INFINITY };
     Certificate {
         count: upper.inertia,
         boundary: problem.boundary,
-        n_counted: upper.n_elastic + n_rigid,
-        n_found: modes.n_between(f64::NEG_INFINITY, upper.inertia.sigma) + n_rigid,
+        n_counted: begin.n_in_band(upper.n_elastic),
+        n_found: modes.n_between(lowest, upper.inertia.sigma) + begin.n_rigid,
         intervals,
         n_finite: None,
         mending: Mending::None,

@@ -17,8 +17,8 @@ pub struct Component<'a> {
     pub factor: &'a Cholesky<'a>,
     /// The rigid-body modes.
     pub rigid: &'a RigidBodyModes,
-    /// The constraint modes.
-    pub constraint: &'a ConstraintModes,
+    /// The constraint modes; none where the interface leaves rigid-body motions free.
+    pub constraint: Option<&'a ConstraintModes<'a>>,
 }
 
 impl<'a> Component<'a> {
@@ -28,7 +28,7 @@ impl<'a> Component<'a> {
         analysis: &'a Analysis,
         factor: &'a Cholesky<'a>,
         rigid: &'a RigidBodyModes,
-        constraint: &'a ConstraintModes,
+        constraint: Option<&'a ConstraintModes<'a>>,
     ) -> Self {
         Self { partition, analysis, factor, rigid, constraint }
     }

@@ -20,7 +20,8 @@ const ROUNDINGS: f64 = 100.0;
 /// # Errors
 /// [`Error::IndefiniteStiffness`].
 pub(super) fn refuse(component: Component<'_>) -> Result<()> {
-    let Component { partition, constraint, .. } = component;
+    // Where the interface holds nothing, a factor below zero says it while the modes are looked for.
+    let Component { partition, constraint: Some(constraint), .. } = component else { return Ok(()) };
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
     let uncondensed = diagonal(&partition.stiffness).split_off(n_i);
     let scale: Vec<f64> = uncondensed.into_iter().map(dense::power_of_two_root).collect();

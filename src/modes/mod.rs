@@ -9,6 +9,7 @@
 //! square of the vector's; each carries the bar that rounding and the digits of the data put on it. Which modes, in which
 //! slices, and certified how is decided here; [`crate::eigen`] finds them.
 
+mod attachment;
 mod boundary_problem;
 mod certificate;
 mod component;
@@ -20,6 +21,8 @@ mod retained;
 mod search;
 mod slices;
 
+pub use attachment::StaticSet;
+pub(crate) use attachment::answers;
 pub(crate) use boundary_problem::massive;
 pub use boundary_problem::{AtShift, BoundaryProblem};
 pub use certificate::{Certificate, CountedInterval, Mending, certified};

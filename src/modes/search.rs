@@ -80,6 +80,11 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// No modes, where none are looked for.
+    pub fn nothing(&self) -> Modes {
+        Modes::none(self.problem.modal().mass.rows())
+    }
+
     fn in_one_go(&self, seed: u64) -> Result<Modes> {
         let request = ModeRequest { wanted: self.wanted, eigensolver: self.eigensolver, seed };
         let problem = self.problem.modal();
@@ -96,7 +101,7 @@ impl<'a> Search<'a> {
     }
 
     fn in_slices(&self) -> Result<Modes> {
-        let nothing = Modes::none(self.problem.modal().mass.rows());
+        let nothing = self.nothing();
         let mut counts = match (self.wanted, self.edge) {
             (Wanted::Count(count), _) => Counts::up_to(&self.problem, count)?,
             (Wanted::UpTo(_), Some(edge)) => Counts::between(&self.problem, (0.0, 0), edge),

@@ -60,6 +60,19 @@ pub trait ModeSource: Sync {
         modes
     }
 
+    /// The modes again, from other start vectors, after a count has found some missing; none where that would bring the same ones.
+    ///
+    /// # Errors
+    /// The eigensolver fails.
+    fn again(&self, seed: u64) -> Result<Option<Modes>> {
+        self.lowest(seed).map(Some)
+    }
+
+    /// The count below the band, where it does not begin at zero.
+    fn begin(&self) -> Option<ElasticCount> {
+        None
+    }
+
     /// Whether modes are fewer than were asked for, as where a component has no more.
     fn is_exhausted_by(&self, _modes: &Modes) -> bool {
         false
@@ -77,8 +90,8 @@ pub(super) struct Band<'a> {
 }
 
 impl Band<'_> {
-    /// Finds what the counts say is missing from the known modes; `ends` are ascending, the lowest interval starts at zero. The
-    /// counts of the result end where no cluster is cut.
+    /// Finds what the counts say is missing from the known modes; `ends` are ascending, the lowest interval starts where the band of the
+    /// source does. The counts of the result end where no cluster is cut.
     ///
     /// # Errors
     /// [`Error::ModesMissing`] where modes stay missing; those of the source and of the counts.
@@ -86,7 +99,7 @@ impl Band<'_> {
         let mut filling = Filling { band: self, modes: known };
         let ends = filling.cut_to_size(ends)?;
         filling.search_every_other(&ends)?;
-        for (lower, upper) in intervals(&ends) {
+        for (lower, upper) in self.intervals(&ends) {
             filling.fill(lower, upper, CUTS_TO_FIND)?;
         }
         if let [inner @ .., last] = &ends[..] {
@@ -97,12 +110,14 @@ impl Band<'_> {
         filling.modes.counts.sort_by(|a, b| a.inertia.sigma.total_cmp(&b.inertia.sigma));
         Ok(filling.modes)
     }
-}
 
-/// The intervals below ascending ends: a shift with the count below it, zero for the first, and the count at the other end.
-fn intervals(ends: &[ElasticCount]) -> impl Iterator<Item = ((f64, usize), ElasticCount)> {
-    let lower = std::iter::once((0.0, 0)).chain(ends.iter().map(|end| end.place()));
-    lower.zip(ends.iter().copied())
+    /// The intervals below ascending ends: a shift with the count below it, that of the source for the first, and the count at the
+    /// other end.
+    fn intervals(&self, ends: &[ElasticCount]) -> impl Iterator<Item = ((f64, usize), ElasticCount)> {
+        let begin = self.source.begin().map_or((0.0, 0), |begin| begin.place());
+        let lower = std::iter::once(begin).chain(ends.iter().map(|end| end.place()));
+        lower.zip(ends.iter().copied())
+    }
 }
 
 struct Filling<'a> {
@@ -114,7 +129,7 @@ impl Filling<'_> {
     /// The ends, with further counts where an interval lacks more modes than a search should find.
     fn cut_to_size(&mut self, ends: &[ElasticCount]) -> Result<Vec<ElasticCount>> {
         let mut cut = Vec::new();
-        for (lower, upper) in intervals(ends) {
+        for (lower, upper) in self.band.intervals(ends) {
             self.cut_to_parts((lower, upper), &mut cut, CUTS_TO_SIZE)?;
             cut.push(upper);
         }
@@ -153,7 +168,7 @@ impl Filling<'_> {
     /// Searches the intervals that lack modes once, every other one first.
     fn search_every_other(&mut self, ends: &[ElasticCount]) -> Result<()> {
         let mut lacking = Vec::new();
-        for (lower, upper) in intervals(ends) {
+        for (lower, upper) in self.band.intervals(ends) {
             let count = self.n_lacking(lower, upper)?;
             if count > 0 {
                 lacking.push(Interval { from: lower.0, to: upper.inertia.sigma, count });

@@ -9,7 +9,7 @@
 use supel_runtime::{Matrix, Precision, RecoveredDof, Recovery};
 
 use super::results::Results;
-use super::user_basis::psi;
+use super::user_basis::combined_rows;
 use crate::error::{Error, Result};
 
 /// Single precision keeps all its digits, 24 bits, of numbers from 2⁻¹²⁶ to 2¹²⁸. Shapes whose largest entry lies between these
@@ -21,31 +21,36 @@ const RANGE_OF_SINGLE: [i32; 2] = [-100, 127];
 /// # Errors
 /// [`Error::RecoveryRange`] where single precision cannot hold the shapes.
 pub(super) fn recovery(results: &Results<'_>) -> Result<Option<Recovery>> {
-    let Some(job) = &results.job.write.recovery else { return Ok(None) };
-    let (partition, basis) = (results.evidence.partition, results.evidence.basis);
-    let (n_b, psi) = (partition.n_interface(), psi(results));
+    let Some(job) = &results.job().write.recovery else { return Ok(None) };
+    let partition = results.evidence.partition;
     let rows = &partition.recovered.rows;
-    let values = Matrix::from_fn(rows.len(), basis.n_reduced(), |i, column| {
-        let of_row = partition.transformation.rows[rows[i].0].entries();
-        of_row.map(|(dof, factor)| factor * psi(dof as usize, column)).sum()
-    });
+    let entries = rows.iter().map(|(row, _)| partition.transformation.rows[*row].entries().collect());
+    let values = combined_rows(results, &entries.collect::<Vec<_>>());
     if job.precision == Precision::Single {
-        refuse_beyond_single(&values, n_b)?;
+        refuse_beyond_single(&values, partition.n_interface())?;
     }
     let dofs = rows.iter().map(|(_, dof)| RecoveredDof { node: dof.node, direction: dof.direction });
     let recovery = Recovery::new(values, dofs.collect(), job.precision);
-    let placed = |recovery: Recovery| match &partition.recovered.positions {
+    let recovered = &partition.recovered;
+    let placed = |recovery: Recovery| match &recovered.positions {
         Some(positions) => recovery.with_positions(positions.clone()),
         None => Ok(recovery),
     };
-    recovery.and_then(placed).map(Some).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
+    let with_faces = |recovery: Recovery| match recovered.faces.as_ref().filter(|faces| faces.count() > 0) {
+        Some(faces) => recovery.with_faces(faces.clone()),
+        None => Ok(recovery),
+    };
+    recovery
+        .and_then(placed)
+        .and_then(with_faces)
+        .map(Some)
+        .map_err(|error| Error::of_superelement(&results.job().write.superelement, error))
 }
 
 /// R T Ψ in the user's units, m × r; none where the job asks for no quantities.
 pub(super) fn quantities(results: &Results<'_>) -> Option<Matrix> {
-    let (rows, psi) = (&results.evidence.partition.quantities.rows, psi(results));
-    let entry = |i: usize, column: usize| rows[i].iter().map(|(dof, factor)| factor * psi(*dof as usize, column)).sum();
-    (!rows.is_empty()).then(|| Matrix::from_fn(rows.len(), results.evidence.basis.n_reduced(), entry))
+    let rows = &results.evidence.partition.quantities.rows;
+    (!rows.is_empty()).then(|| combined_rows(results, rows))
 }
 
 /// The size of the dynamic modes depends on the units; the constraint modes are displacements under unit displacements.

@@ -4,7 +4,7 @@ use super::results::Results;
 use super::{expansion, rigid_body, scene, soft_rotation, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
-use crate::error::Warning;
+use crate::error::{Selector, Warning};
 use crate::input::MatrixFacts;
 use crate::input::{Faces, PatchFaces};
 use crate::job::{Boundary, Certify, InterfaceJob, ModeSelection, Origin};
@@ -12,10 +12,11 @@ use crate::model::RoundedCoordinates;
 use crate::modes::CountedInterval;
 use crate::number::counted;
 use crate::partition::{InterfaceNode, LoadFacts};
+use crate::plan::Mass;
 use crate::report::{
     Completeness, DroppedCoordinate, FacesReport, Generator, HeldReport, InterfacePosition, InterfaceReport,
     LoadReport, MassProperties, MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport,
-    ReportBody, ResidualVector, RigidBodyModes, TrustInterval,
+    ReportBody, ResidualVector, RigidBodyModes, SkippedReport, TrustInterval,
 };
 use crate::rigid::ILL_CONDITIONED;
 use crate::verification::Evidence;
@@ -34,10 +35,15 @@ pub(super) fn body(results: &Results<'_>) -> ReportBody {
     }
 }
 
+fn skipped(results: &Results<'_>) -> Vec<SkippedReport> {
+    let skipped = results.plan.skipped().into_iter();
+    skipped.map(|(rule, what)| SkippedReport { rule: rule.name(), what }).collect()
+}
+
 fn model(results: &Results<'_>) -> ModelReport {
     let evidence = &results.evidence;
     let model = &evidence.partition.model;
-    let [stiffness, mass] = &results.input.matrices;
+    let stiffness = &results.input.matrices[0];
     let mut notes = results.input.notes.clone();
     notes.extend(model.findings.iter().map(ToString::to_string));
     notes.extend(warnings::refinement(results));
@@ -51,11 +57,11 @@ fn model(results: &Results<'_>) -> ModelReport {
         n_bodies: model.n_bodies,
         held: held(results),
         stiffness: matrix(stiffness),
-        mass: matrix(mass),
+        mass: results.input.mass().map(matrix),
         files: results.input.files.clone(),
         mass_properties,
         rigid_body_modes: RigidBodyModes { count: evidence.rigid.count(), source: evidence.rigid.source },
-        units: results.job.model.units.clone(),
+        units: results.job().model.units.clone(),
         notes,
     }
 }
@@ -72,6 +78,9 @@ fn held(results: &Results<'_>) -> Option<HeldReport> {
 /// The mass properties of one body; of a component that the job holds, those that it has while it is free.
 fn mass_properties(results: &Results<'_>) -> MassProperties {
     let evidence = &results.evidence;
+    if results.plan.mass() == Mass::NotAsked {
+        return MassProperties::default();
+    }
     if evidence.partition.held.count() > 0 {
         let motions = evidence.partition.model.weight.as_ref().and_then(|weight| weight.motions.as_ref());
         return motions.map_or_else(MassProperties::default, |m_f| rigid_body::mass_properties(results, m_f.as_ref()));
@@ -94,17 +103,18 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
     let is_expansion = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::Expansion(_));
     let n_expansion_modes = basis.coordinates.iter().filter(is_expansion).count();
     ReductionReport {
-        method: results.job.reduction.method,
-        eigensolver: results.job.reduction.eigensolver,
+        method: results.job().reduction.method,
+        eigensolver: results.job().reduction.eigensolver,
         interfaces: interfaces(results),
         n_interface: evidence.partition.n_interface(),
         n_inertia_relief,
         n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body - n_expansion_modes - n_residual_vectors,
         n_reduced: basis.n_reduced(),
         mass_rank: evidence.reduction.mass_rank(),
-        modes_held: results.job.reduction.held.as_ref().map(|held| held.iter().map(|held| held.0.clone()).collect()),
+        modes_held: results.job().reduction.held.as_ref().map(|held| held.iter().map(|held| held.0.clone()).collect()),
         expansion: expansion::report(results),
         loads: loads(results),
+        skipped: skipped(results),
         dropped: basis
             .dropped
             .iter()
@@ -146,7 +156,7 @@ fn interfaces(results: &Results<'_>) -> Vec<InterfaceReport> {
     let mut rows: Vec<InterfaceReport> = Vec::new();
     for node in &partition.interface {
         let n_dofs = if node.directions.is_empty() { node.n_nodes } else { node.directions.len() };
-        let origin = origin(node, &results.job.interfaces);
+        let origin = origin(node, &results.job().interfaces);
         let faces = |position| faces((node, position), origin, &results.input.faces);
         let at = node.position.map(|position| {
             let (faces, faces_unknown) = faces(position);
@@ -184,13 +194,14 @@ fn faces(
     origin: PositionOrigin,
     known: &[PatchFaces],
 ) -> (Option<FacesReport>, Option<String>) {
-    let found = known.iter().find(|faces| origin == PositionOrigin::MeanOfNodes && faces.interface == node.name);
+    let selector = Selector::Interface(node.name.clone());
+    let found = known.iter().find(|faces| origin == PositionOrigin::MeanOfNodes && faces.of == selector);
     match found.map(|found| &found.faces) {
         None => (None, None),
         Some(Faces::Unknown { reason }) => (None, Some(reason.clone())),
-        Some(Faces::Known { count, centroid, .. }) => {
+        Some(Faces::Known { faces, centroid, .. }) => {
             let offset = (0..3).map(|axis| (centroid[axis] - position[axis]).powi(2)).sum::<f64>();
-            (Some(FacesReport { count: *count, centroid: *centroid, distance: offset.sqrt() }), None)
+            (Some(FacesReport { count: faces.len(), centroid: *centroid, distance: offset.sqrt() }), None)
         }
     }
 }
@@ -275,6 +286,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     }
     warnings.extend(warnings::of_motions(results));
     warnings.extend(soft_rotation::soft_rotation(results));
+    warnings.extend(warnings::equal_weights(results));
     warnings.extend(warnings::penalties(results));
     warnings.extend(warnings::data_precision(results));
     warnings.extend(warnings::mixed_precision(results));
@@ -318,7 +330,7 @@ fn reason(results: &Results<'_>) -> String {
 fn number_of_modes(results: &Results<'_>) -> Option<Warning> {
     let modes = &results.evidence.retained.modes;
     let found = modes.count();
-    match results.job.reduction.wanted() {
+    match results.job().reduction.wanted() {
         ModeSelection::Count { count } if found < count => Some(Warning {
             code: "W-FEWER-MODES",
             message: format!(
@@ -362,7 +374,7 @@ fn trust_intervals(results: &Results<'_>) -> Vec<TrustInterval> {
 
 fn completeness(results: &Results<'_>) -> Completeness {
     let of_file = results.evidence.partition.expansion.count() > 0;
-    match (results.evidence.certificate, results.job.run.certify) {
+    match (results.evidence.certificate, results.job().run.certify) {
         (None, _) if of_file => Completeness::NotCertified {
             reason: "they come from a file, which may leave out any others; a count knows computed modes only"
                 .to_owned(),

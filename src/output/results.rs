@@ -4,6 +4,7 @@ use crate::constraint::LooseMotions;
 use crate::factor::Analysis;
 use crate::input::InputFacts;
 use crate::job::Job;
+use crate::plan::{Plan, Statics};
 use crate::report::WorkCounters;
 use crate::verification::check::Check;
 use crate::verification::{Compared, Evidence, Findings};
@@ -11,8 +12,8 @@ use crate::verification::{Compared, Evidence, Findings};
 /// Everything the output is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Results<'a> {
-    /// The job.
-    pub job: &'a Job,
+    /// What was done, and what was left out.
+    pub plan: &'a Plan,
     /// What was read.
     pub input: &'a InputFacts,
     /// Mechanisms and what comes near them.
@@ -29,7 +30,12 @@ pub struct Results<'a> {
     pub n_other_factors: usize,
 }
 
-impl Results<'_> {
+impl<'a> Results<'a> {
+    /// The job as the stages have done it.
+    pub(super) fn job(&self) -> &'a Job {
+        self.plan.job()
+    }
+
     /// All checks in the order of their identifiers.
     pub(super) fn checks(&self) -> Vec<Check> {
         let mut checks = [&self.findings.checks[..], &self.preserved.checks].concat();
@@ -52,7 +58,7 @@ impl Results<'_> {
 
     /// What was done, counted.
     pub(super) fn work(&self) -> WorkCounters {
-        let Evidence { partition, rigid, retained, answers, certificate, enclosures, .. } = self.evidence;
+        let Evidence { retained, certificate, enclosures, .. } = self.evidence;
         let work = &retained.modes.work;
         WorkCounters {
             n_factorisations: 1
@@ -60,13 +66,28 @@ impl Results<'_> {
                 + work.factorisations
                 + certificate.map_or(0, |certificate| certificate.n_factorisations)
                 + enclosures.map_or(0, |enclosures| enclosures.n_factorisations),
-            n_solves: work.solves
-                + partition.n_interface()
-                + rigid.count()
-                + answers.map_or(0, |answers| answers.ncols()),
+            n_solves: work.solves + self.n_solves_of_the_basis(),
             n_restarts: work.restarts,
             factor_flops: self.analysis.flops,
             factor_nonzeros: self.analysis.nnz_factor as u64,
         }
+    }
+
+    /// Right-hand sides of constraint modes, inertia relief, the modes of a file and residual vectors. What is followed and gathered by the
+    /// factor takes half a solve each way.
+    fn n_solves_of_the_basis(&self) -> usize {
+        let Evidence { partition, rigid, basis, .. } = self.evidence;
+        if partition.n_interface() == 0 && rigid.count() > 0 {
+            // Its modes are the model.
+            return 0;
+        }
+        let of_statics = match self.plan.statics() {
+            Statics::Stored => partition.n_interface(),
+            Statics::ByFactor => partition.n_interface() + basis.n_reduced(),
+            Statics::Condensed | Statics::Carried => 0,
+        };
+        let n_relieved = rigid.relieved(partition, self.plan.relief()).len();
+        let n_inside = (0..partition.loads.count()).filter(|load| partition.loads.acts_inside(*load)).count();
+        of_statics + n_relieved + partition.expansion.count() + n_inside
     }
 }

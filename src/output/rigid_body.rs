@@ -36,7 +36,7 @@ fn mass_routes(results: &Results<'_>) -> Vec<MassRoute> {
             routes.push(MassRoute { route, properties: mass_properties(results, m_f.as_ref()) });
         }
     }
-    if let Some(expect) = &results.job.model.expect {
+    if let Some(expect) = &results.job().model.expect {
         let properties = MassProperties { mass: expect.mass, cg: expect.cg, inertia: None };
         routes.push(MassRoute { route: "expected", properties });
     }
@@ -90,7 +90,7 @@ pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
 pub(super) fn expectation_unchecked(results: &Results<'_>) -> Option<Warning> {
     let Evidence { partition, rigid, .. } = results.evidence;
     // The motions of a free body have its mass and its centre.
-    let expect = results.job.model.expect.as_ref().filter(|_| !rigid.is_classical)?;
+    let expect = results.job().model.expect.as_ref().filter(|_| !rigid.is_classical)?;
     let lacks = verification::not_comparable(expect, partition);
     (!lacks.is_empty()).then(|| Warning {
         code: "W-EXPECT-UNCHECKED",

@@ -12,7 +12,7 @@ pub(super) fn warnings(results: &Results<'_>) -> Vec<Warning> {
     let mut warnings: Vec<Warning> = results.preserved.report.accuracy.iter().filter_map(exceeded).collect();
     warnings.extend(no_modes(results));
     warnings.extend(size_forecast::of_interfaces(results.evidence.partition));
-    warnings.extend(size_forecast::of_modes(results.evidence.retained.modes.count(), results.job));
+    warnings.extend(size_forecast::of_modes(results.evidence.retained.modes.count(), results.job()));
     warnings
 }
 
@@ -47,10 +47,10 @@ fn exceeded(accuracy: &Accuracy) -> Option<Warning> {
 fn no_modes(results: &Results<'_>) -> Option<Warning> {
     let modes = &results.evidence.retained.modes;
     let report = &results.preserved.report;
-    let stated = results.job.scene.as_ref().and_then(|scene| scene.band_hz);
+    let stated = results.job().scene.as_ref().and_then(|scene| scene.band_hz);
     let is_below_all =
         !report.boundaries.is_empty() && report.boundaries.iter().all(|line| line.frequencies.is_empty());
-    let asked = match (results.job.reduction.wanted(), stated) {
+    let asked = match (results.job().reduction.wanted(), stated) {
         (ModeSelection::UpTo { up_to_hz }, _) if modes.count() == 0 => {
             format!("no elastic mode lies below {} Hz, to which modes are asked for", typed(up_to_hz))
         }

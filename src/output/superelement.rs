@@ -11,6 +11,7 @@ use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result, json_value};
 use crate::job::{Job, ModeSelection, ModesJob};
 use crate::partition::{DofOrigin, Frame, OF_THE_MODEL};
+use crate::plan::Mass;
 use crate::verification::check::{Check, Verdict};
 
 /// Puts the units back and names every coordinate.
@@ -18,7 +19,8 @@ pub(super) fn superelement(results: &Results<'_>, verdict: Verdict) -> Result<Su
     let tensors = Tensors { recovery: recovery(results)?, quantities: quantities(results), ..tensors(results) };
     refuse_out_of_range(&tensors)?;
     let metadata = metadata(results, &tensors, verdict)?;
-    Superelement::new(tensors, metadata).map_err(|error| Error::of_superelement(&results.job.write.superelement, error))
+    Superelement::new(tensors, metadata)
+        .map_err(|error| Error::of_superelement(&results.job().write.superelement, error))
 }
 
 /// What is finite in scaled units may leave the range of a double in the user's.
@@ -52,16 +54,22 @@ fn tensors(results: &Results<'_>) -> Tensors {
     let mut rigid_body_mass = reduction.rigid_body_mass.clone();
     rigid_body_mass *= faer::Scale(scaling.mass_unit());
     let nodes = named_nodes(results);
+    let has_mass = results.plan.mass() == Mass::Reduced;
+    let of_mass = |a: MatRef<'_, f64>| if has_mass { matrix(a) } else { Matrix::default() };
     Tensors {
         stiffness: matrix(model.stiffness.as_ref()),
-        mass: matrix(model.mass.as_ref()),
+        mass: of_mass(model.mass.as_ref()),
         rigid_body_modes: matrix(model.rigid_body_modes.as_ref()),
-        rigid_body_mass: matrix(rigid_body_mass.as_ref()),
+        rigid_body_mass: of_mass(rigid_body_mass.as_ref()),
         interface_positions: nodes.iter().map(|node| node.position).collect(),
         interface_frames: frames(results, nodes.len()),
         frequencies: frequencies(results),
         mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
-        gravity: reduction.gravity.as_ref().map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
+        gravity: reduction
+            .gravity
+            .as_ref()
+            .filter(|_| has_mass)
+            .map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
         load_vectors: load_vectors(results),
         matrices: model.matrices.iter().map(|further| matrix(further.as_ref())).collect(),
         damping: evidence.damping.map(|damping| matrix(damping.matrix.as_ref())),
@@ -149,13 +157,14 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
     });
     let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
     // What moves of a held component has less mass than the whole.
-    let is_whole = evidence.rigid.is_classical && evidence.partition.held.count() == 0;
+    let has_mass = results.plan.mass() == Mass::Reduced;
+    let is_whole = has_mass && evidence.rigid.is_classical && evidence.partition.held.count() == 0;
     let classical = is_whole.then(|| file::mass_properties(&of_the_body())).flatten();
     let digests = results.input.digests();
     Ok(Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
-        method: results.job.reduction.method.in_file(),
-        units: results.job.model.units.clone(),
+        method: results.job().reduction.method.in_file(),
+        units: results.job().model.units.clone(),
         interface_nodes,
         coordinates,
         dropped: dropped.collect(),
@@ -164,24 +173,22 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         matrices: evidence.partition.matrices.iter().map(|carried| carried.facts.in_file()).collect(),
         modes_held: evidence.partition.modes_held(),
         validity: file::Validity {
-            band_hz: band(results.job, tensors),
-            assumptions: results.job.assumptions(),
+            band_hz: band(results.job(), tensors),
+            assumptions: results.plan.assumptions(),
+            gravity: results.plan.gravity(),
             ..file::Validity::default()
         },
         flags: {
             let of_mass = evidence.reduction.modal_mass.iter().map(|_| file::Flag::SingularMass);
-            results.job.flags().into_iter().chain(of_mass).collect()
+            results.plan.flags().into_iter().chain(of_mass).collect()
         },
         model: file::ModelSummary {
             n_dofs: evidence.partition.model.n_moving() as u64,
-            rigid_body_modes: match evidence.rigid.are_unit_motions(evidence.partition) {
-                true => file::RigidBodyModes::Geometric,
-                false => file::RigidBodyModes::Algebraic,
-            },
+            rigid_body_modes: evidence.rigid.in_file(evidence.partition),
             mass_properties: classical,
         },
         inputs: digests.into_iter().map(|(role, digest)| (role, digest.to_owned())).collect(),
-        job: job_document(results.job)?,
+        job: job_document(results.plan.given())?,
         verification: verification(&results.checks(), verdict),
     })
 }
@@ -239,7 +246,7 @@ fn job_document(job: &Job) -> Result<serde_json::Value> {
     let mut job = job.clone();
     let relative = |path: &mut PathBuf| *path = relative_to(path, &folder);
     relative(&mut job.model.stiffness);
-    relative(&mut job.model.mass);
+    job.model.mass.as_mut().map(relative);
     job.model.dofs.as_mut().map(relative);
     job.model.nodes.as_mut().map(relative);
     job.model.internal_forces.as_mut().map(relative);

@@ -1,15 +1,25 @@
-//! The basis in the user's units.
+//! Rows of the basis in the user's units.
+
+use supel_runtime::Matrix;
 
 use super::results::Results;
+use crate::reduction::panel_of;
+use crate::sparse::panels;
 
-/// An entry of Ψ: of a dof of the partition and a reduced coordinate, displacements in the user's units per unit of the coordinate.
-pub(super) fn psi<'a>(results: &'a Results<'_>) -> impl Fn(usize, usize) -> f64 + 'a {
+/// Combinations of rows of Ψ, by the dofs of the partition and their factors, m × r: displacements in the user's units per unit of each
+/// coordinate. Columns of the basis come some at a time, and only the rows asked for are kept.
+pub(super) fn combined_rows(results: &Results<'_>, rows: &[Vec<(u32, f64)>]) -> Matrix {
     let (partition, basis) = (results.evidence.partition, results.evidence.basis);
-    let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-    let shape = partition.scaling.shape_unit();
-    move |dof, column| match (dof < n_i, column < n_b) {
-        (true, true) => basis.constraint_modes[(dof, column)],
-        (true, false) => shape * basis.dynamic_modes[(dof, column - n_b)],
-        (false, _) => f64::from(u8::from(dof - n_i == column)),
+    let (n_b, r, shape) = (partition.n_interface(), basis.n_reduced(), partition.scaling.shape_unit());
+    let mut values = vec![0.0; rows.len() * r];
+    for columns in panels(r) {
+        let panel = panel_of(basis, columns.clone());
+        for (row, values) in rows.iter().zip(values.chunks_exact_mut(r)) {
+            for (at, column) in columns.clone().enumerate() {
+                let unit = if column < n_b { 1.0 } else { shape };
+                values[column] = row.iter().map(|(dof, factor)| factor * (unit * panel[(*dof as usize, at)])).sum();
+            }
+        }
     }
+    Matrix::from_fn(rows.len(), r, |i, j| values[i * r + j])
 }

@@ -2,9 +2,10 @@
 
 use super::results::Results;
 use crate::constraint::Loose;
-use crate::error::Warning;
+use crate::error::{Selector, Warning};
 use crate::factor::Refinement;
-use crate::job::{Boundary, Precision};
+use crate::input::{Faces, PatchFaces};
+use crate::job::{Boundary, Coupling, Precision};
 use crate::number::counted;
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
@@ -85,11 +86,38 @@ pub(super) fn refinement(results: &Results<'_>) -> Option<String> {
 
 /// A factor in single precision that the job did not ask for.
 pub(super) fn mixed_precision(results: &Results<'_>) -> Option<Warning> {
-    let was_chosen = results.job.run.precision == Precision::Auto;
+    let was_chosen = results.job().run.precision == Precision::Auto;
     let refinement = refinement(results).filter(|_| was_chosen)?;
     Some(Warning {
         code: "W-MIXED-PRECISION",
         message: format!("in double precision the run would not have fitted into memory; {refinement}"),
+    })
+}
+
+/// Averages with equal weights on faces that have nodes in the middles of their edges, which the job has not asked for by name.
+///
+/// A uniform traction acts on the middles of the edges of such a face, and hardly or the other way at its corners. Equal forces bend the
+/// face around its corners, so that the joint comes out too soft.
+pub(super) fn equal_weights(results: &Results<'_>) -> Option<Warning> {
+    let is_quadratic = |name: &str| {
+        let of = |patch: &&PatchFaces| patch.of == Selector::Interface(name.to_owned());
+        match results.input.faces.iter().find(of).map(|patch| &patch.faces) {
+            Some(Faces::Known { faces, .. }) => faces.iter().any(|face| !face.middles.is_empty()),
+            Some(Faces::Unknown { .. }) | None => false,
+        }
+    };
+    let averages =
+        results.job().interfaces.iter().filter(|job| job.coupling == Coupling::Average && job.weights.is_none());
+    let names: Vec<String> =
+        averages.filter(|job| is_quadratic(&job.name)).map(|job| format!("{:?}", job.name)).collect();
+    let interfaces = if names.len() == 1 { "interface" } else { "interfaces" };
+    (!names.is_empty()).then(|| Warning {
+        code: "W-WEIGHTS",
+        message: format!(
+            "{interfaces} {}: the faces have nodes in the middles of their edges, and the mean counts these as much as corners, which \
+             makes the joint too soft; say weights = \"area\", or weights = \"uniform\" if equal ones are meant",
+            names.join(", ")
+        ),
     })
 }
 

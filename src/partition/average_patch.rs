@@ -27,7 +27,7 @@ pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]
             weights.push(weight);
         }
     }
-    Ok(Resolved { node: rigid_patch::interface_node(catalogue, job, labels)?, rows: Rows::Average { rows, weights } })
+    Ok(Resolved::new(rigid_patch::interface_node(catalogue, job, labels)?, Rows::Average { rows, weights }))
 }
 
 /// The distortions of a patch whose node has `n_directions` dofs, internal ones among them.

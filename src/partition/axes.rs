@@ -43,10 +43,16 @@ pub(crate) fn of_job(given: &AxesGiven) -> Option<Frame> {
     right_handed(given.z, given.x)
 }
 
-/// Axes with z along a direction, and x along what it leaves of the axis of the model that it leaves most of.
+/// Components of a unit vector that differ by less are alike. Coordinates have more digits than that, and their rounding must not turn
+/// axes over.
+const ALIKE: f64 = 1e-3;
+
+/// Axes with z along a direction, and x along what it leaves of the axis of the model that it leaves most of, the first of those that are
+/// alike.
 fn along(z: [f64; 3]) -> Option<Frame> {
-    let least = (0..3).min_by(|a, b| z[*a].abs().total_cmp(&z[*b].abs()))?;
-    right_handed(z, std::array::from_fn(|i| f64::from(u8::from(i == least))))
+    let least = z.iter().fold(f64::INFINITY, |least, component| least.min(component.abs()));
+    let first = z.iter().position(|component| component.abs() <= least + ALIKE)?;
+    right_handed(z, std::array::from_fn(|i| f64::from(u8::from(i == first))))
 }
 
 /// z, and the part of x that is perpendicular to it.
@@ -70,4 +76,22 @@ fn unit(vector: [f64; 3]) -> [f64; 3] {
     let scaled = vector.map(|value| value / largest);
     let length = scaled.iter().map(|value| value * value).sum::<f64>().sqrt();
     scaled.map(|value| value / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::along;
+
+    #[test]
+    fn rounding_turns_no_axes_over() {
+        for tiny in [0.0, 1e-33, -1e-16, 1e-9] {
+            for (x, z) in [(tiny, 0.0), (0.0, tiny)] {
+                let frame = along([x, 1.0, z]).expect("a frame");
+                let expected = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]];
+                for (found, expected) in frame.as_flattened().iter().zip(expected.as_flattened()) {
+                    assert!((found - expected).abs() <= 2.0 * tiny.abs() + f64::EPSILON, "{frame:?}");
+                }
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@ use faer::{Mat, MatRef};
 use super::mixed_interface::{MixedInterface, MixedPencil};
 use super::partition::Partition;
 use crate::error::Result;
-use crate::job::{Boundary, HeldInterface};
+use crate::job::{Boundary, InterfacePart};
 use crate::sparse::Pencil;
 
 impl Partition {
@@ -13,7 +13,7 @@ impl Partition {
     ///
     /// # Errors
     /// A direction that no node of the interface has.
-    pub fn hold_for_modes(&mut self, held: &[HeldInterface]) -> Result<()> {
+    pub fn hold_for_modes(&mut self, held: &[InterfacePart]) -> Result<()> {
         self.mixed = Some(MixedInterface::new(&self.interface, held, [&self.stiffness, &self.mass])?);
         Ok(())
     }

@@ -20,5 +20,5 @@ pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, label: i64) ->
         coupling: Coupling::Direct,
         n_nodes: 1,
     };
-    Ok(Resolved { node, rows: Rows::Own(rows) })
+    Ok(Resolved::new(node, Rows::Own(rows)))
 }

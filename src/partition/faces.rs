@@ -1,6 +1,6 @@
 //! What interfaces ask of the faces of their patches.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Selector};
 use crate::input::{Faces, PatchFaces};
 use crate::job::{InterfaceJob, Origin, Weights};
 
@@ -14,7 +14,8 @@ pub fn with_faces(interfaces: &[InterfaceJob], faces: &[PatchFaces]) -> Result<V
 
 fn with_own(job: &InterfaceJob, faces: &[PatchFaces]) -> Result<InterfaceJob> {
     let known = |key: &'static str| {
-        let found = match faces.iter().find(|faces| faces.interface == job.name).map(|faces| &faces.faces) {
+        let selector = Selector::Interface(job.name.clone());
+        let found = match faces.iter().find(|faces| faces.of == selector).map(|faces| &faces.faces) {
             Some(Faces::Known { centroid, areas, .. }) => return Ok((*centroid, areas.clone())),
             Some(Faces::Unknown { reason }) => reason.clone(),
             None => "no face of the mesh has all its nodes in the patch, or the mesh has no cells".to_owned(),

@@ -45,10 +45,10 @@ pub struct Fit {
 }
 
 /// The point that a fit gives, and the fit.
-pub(super) type Place = ([f64; 3], Fit);
+pub(crate) type Place = ([f64; 3], Fit);
 
 /// The middle of a hole's axis along the extent of the nodes, or why there is none in words.
-pub(super) fn hole(points: &[[f64; 3]]) -> Result<Place, String> {
+pub(crate) fn hole(points: &[[f64; 3]]) -> Result<Place, String> {
     let scaled = Scaled::of(points);
     let (singular, normals) = scaled.directions()?;
     let is_flat = singular[2] <= FLAT * singular[0];
@@ -63,7 +63,7 @@ pub(super) fn hole(points: &[[f64; 3]]) -> Result<Place, String> {
 }
 
 /// The centre of a sphere, or why there is none in words.
-pub(super) fn sphere(points: &[[f64; 3]]) -> Result<Place, String> {
+pub(crate) fn sphere(points: &[[f64; 3]]) -> Result<Place, String> {
     refuse_few(points, 5)?;
     let scaled = Scaled::of(points);
     let x = &scaled.points;

@@ -20,6 +20,18 @@ pub struct Held {
     pub selections: Vec<HeldSelection>,
     /// Where they are, where coordinates are known.
     sites: Vec<Site>,
+    /// Dofs of nodes of patches that are at rest, which are no rows of the model.
+    n_of_patches: usize,
+}
+
+/// Interface dofs that the scene says are at rest.
+pub(super) struct Ground {
+    /// Nodes that they belong to; none for rows.
+    pub(super) n_nodes: Option<usize>,
+    /// Those that are rows of the model.
+    pub(super) rows: Vec<usize>,
+    /// Those of the node of a patch.
+    pub(super) sites: Vec<Site>,
 }
 
 /// One selection of held dofs.
@@ -45,7 +57,26 @@ impl Held {
 
     /// Dofs that are held, each counted once.
     pub fn count(&self) -> usize {
-        self.rows.len()
+        self.rows.len() + self.n_of_patches
+    }
+
+    /// Holds dofs of an interface as well.
+    pub(super) fn ground(&mut self, model: &Model, interface: &str, ground: Ground) {
+        let Ground { n_nodes, rows, sites } = ground;
+        let n_dofs = rows.len() + sites.len();
+        let name = format!("{interface}, by the scene");
+        match self.selections.last_mut().filter(|last| last.name == name) {
+            Some(last) => {
+                last.n_dofs += n_dofs;
+                last.n_nodes = last.n_nodes.zip(n_nodes).map(|(a, b)| a + b);
+            }
+            None => self.selections.push(HeldSelection { name, n_nodes, n_dofs }),
+        }
+        let of_rows = model.sites().unwrap_or_default();
+        self.sites.extend(rows.iter().filter_map(|row| of_rows.get(*row).copied().flatten()));
+        self.n_of_patches += sites.len();
+        self.sites.extend(sites);
+        self.rows.extend(rows.into_iter().map(|row| (row, self.selections.len() - 1)));
     }
 
     /// Whether a row of the model is held.
@@ -65,7 +96,7 @@ impl Held {
 
     /// Refuses interfaces that move a held dof.
     pub(super) fn refuse_interface(&self, model: &Model, interfaces: &Interfaces) -> Result<()> {
-        for Resolved { node, rows } in &interfaces.0 {
+        for Resolved { node, rows, .. } in &interfaces.list {
             if let Some((row, selection)) = rows.all().iter().find_map(|row| Some((*row, *self.rows.get(row)?))) {
                 let fixed = Selector::Fixed(self.selections[selection].name.clone());
                 return Err(Error::FixedInterface {

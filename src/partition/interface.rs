@@ -2,13 +2,15 @@
 
 use std::collections::{HashMap, HashSet};
 
+use supel_runtime::RecoveredFaces;
+
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
 use super::{average_patch, direct_nodes, rigid_patch};
 use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result, Selector};
-use crate::input::{Patch, Patches, looks_at_faces};
-use crate::job::{Coupling, InterfaceJob, NodeSelection, RecoveryJob};
+use crate::input::{Face, Faces, Patch, PatchFaces, Patches, looks_at_faces};
+use crate::job::{Coupling, InterfaceJob, Job, LoadJob, NodeSelection, RecoveryJob, Selection};
 use crate::model::Model;
 
 /// Finds the rows of every interface and checks that no row is asked for twice.
@@ -37,7 +39,7 @@ pub(super) fn resolve(model: &Model, interfaces: &[InterfaceJob]) -> Result<Inte
         }
     }
     refuse_shared_rows(model, &resolved)?;
-    Ok(Interfaces(resolved))
+    Ok(Interfaces::all(resolved))
 }
 
 /// Rows of the model whose displacements the superelement recovers; none unless a job asks for some.
@@ -47,6 +49,24 @@ pub struct RecoveredRows {
     pub rows: Vec<(usize, Dof)>,
     /// Where the nodes are, in their order; none where the model has no coordinates.
     pub positions: Option<Vec<[f64; 3]>>,
+    /// Faces of the mesh all of whose nodes are among them; none where the mesh tells of none.
+    pub faces: Option<RecoveredFaces>,
+}
+
+impl RecoveredRows {
+    /// These rows with what the mesh tells of faces between their nodes, and a remark where it has cells but does not tell.
+    pub fn with_faces(mut self, known: &[PatchFaces]) -> (Self, Option<String>) {
+        let found = known.iter().find(|patch| patch.of == Selector::Recovery).map(|patch| &patch.faces);
+        let remark = match found {
+            Some(Faces::Unknown { reason }) => Some(format!("faces between recovered nodes are not known: {reason}")),
+            _ => None,
+        };
+        if let (Some(Faces::Known { faces, .. }), Some(positions)) = (found, &self.positions) {
+            let drawn: Vec<Vec<usize>> = faces.iter().filter_map(Face::drawn).collect();
+            self.faces = RecoveredFaces::new(drawn.iter().map(Vec::as_slice), positions.len()).ok();
+        }
+        (self, remark)
+    }
 }
 
 /// The rows of the model whose displacements a job recovers; none where the job recovers nothing.
@@ -63,7 +83,7 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<R
         let of_node = catalogue.rows_of(&selection.selector, node)?.iter();
         rows.extend(of_node.map(|(direction, row)| (*row, Dof { node, direction: *direction })));
     }
-    Ok(RecoveredRows { rows, positions })
+    Ok(RecoveredRows { rows, positions, faces: None })
 }
 
 /// Labels of the nodes of patches, whose coordinates count. A selection that finds none is refused where it is resolved.
@@ -73,19 +93,22 @@ pub fn nodes_of_patches(model: &Model, interfaces: &[InterfaceJob]) -> HashSet<i
     tied.filter_map(|job| catalogue.select(model, &job.selection()).ok()).flatten().collect()
 }
 
-/// The patches of several nodes whose faces tell something of them. A selection that finds none is refused where it is resolved.
-pub fn patches(model: &Model, interfaces: &[InterfaceJob]) -> Patches {
+/// The nodes of a job between which faces tell something: patches, those that a pressure acts on, and recovered ones. A selection that
+/// finds none is refused where it is resolved.
+pub fn patches<'a>(model: &'a Model, job: &Job) -> Patches<'a> {
     let Some(nodes) = &model.nodes else { return Patches::default() };
     let catalogue = NodeCatalogue::new(model);
     let indices: HashMap<i64, usize> = nodes.labels.iter().copied().zip(0..).collect();
-    let patch = |job: &InterfaceJob| {
-        let labels = catalogue.select(model, &job.selection()).ok().filter(|labels| labels.len() > 1)?;
-        let nodes_of: Vec<usize> = labels.iter().map(|label| indices.get(label).copied()).collect::<Option<_>>()?;
-        let positions = nodes_of.iter().map(|node| nodes.coordinates[*node]).collect();
-        Some(Patch { interface: job.name.clone(), nodes: nodes_of, positions })
+    let patch = |selection: Selection<'_>| {
+        let labels = catalogue.select(model, &selection).ok().filter(|labels| labels.len() > 1)?;
+        let nodes: Vec<usize> = labels.iter().map(|label| indices.get(label).copied()).collect::<Option<_>>()?;
+        Some(Patch { of: selection.selector, nodes })
     };
-    let list = interfaces.iter().filter(|job| looks_at_faces(job)).filter_map(patch).collect();
-    Patches { list, n_nodes: nodes.labels.len() }
+    let interfaces = job.interfaces.iter().filter(|job| looks_at_faces(job)).map(InterfaceJob::selection);
+    let pressed = job.loads.iter().filter_map(LoadJob::pressed);
+    let recovered = job.write.recovery.iter().map(RecoveryJob::selection);
+    let list = interfaces.chain(pressed).chain(recovered).filter_map(patch).collect();
+    Patches { list, coordinates: &nodes.coordinates }
 }
 
 /// Rows by number: interface nodes where the rows belong to nodes with coordinates, bare rows otherwise.
@@ -122,7 +145,7 @@ fn from_rows(model: &Model, catalogue: &NodeCatalogue, job: &InterfaceJob, rows:
         coupling: Coupling::Direct,
         n_nodes: rows.len(),
     };
-    Ok(vec![Resolved { node, rows: Rows::Own(rows) }])
+    Ok(vec![Resolved::new(node, Rows::Own(rows))])
 }
 
 /// The row of the model that a row of the files, both from zero, has become.
@@ -142,7 +165,7 @@ fn refused(model: &Model, selector: &Selector, row: usize, found: &'static str) 
 
 fn refuse_shared_rows(model: &Model, resolved: &[Resolved]) -> Result<()> {
     let mut owner: HashMap<usize, &str> = HashMap::new();
-    for Resolved { node, rows } in resolved {
+    for Resolved { node, rows, .. } in resolved {
         for row in rows.all() {
             if let Some(first) = owner.insert(*row, &node.name) {
                 let in_files = || format!("row {} (from zero)", model.rows.of(*row));

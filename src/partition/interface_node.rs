@@ -31,6 +31,17 @@ pub struct InterfaceNode {
 pub(super) struct Resolved {
     pub(super) node: InterfaceNode,
     pub(super) rows: Rows,
+    /// Directions of a patch that the scene says are at rest; no directions of the node any more.
+    pub(super) grounded: Vec<Direction>,
+    /// The carrier that the scene says moves it, by its place among the interfaces.
+    pub(super) carrier: Option<usize>,
+}
+
+impl Resolved {
+    /// A node of which the scene says nothing.
+    pub(super) fn new(node: InterfaceNode, rows: Rows) -> Self {
+        Self { node, rows, grounded: Vec::new(), carrier: None }
+    }
 }
 
 /// The rows of the model that an interface node stands for.
@@ -64,10 +75,34 @@ impl Rows {
 
 /// All interfaces of a job, resolved.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Interfaces(pub(super) Vec<Resolved>);
+pub(super) struct Interfaces {
+    /// Nodes that have coordinates, then those that the scene leaves without any.
+    pub(super) list: Vec<Resolved>,
+    /// How many have coordinates.
+    pub(super) n_kept: usize,
+}
 
 impl Interfaces {
-    pub(super) fn into_nodes(self) -> Vec<InterfaceNode> {
-        self.0.into_iter().map(|resolved| resolved.node).collect()
+    /// Interfaces of which the scene says nothing.
+    pub(super) fn all(list: Vec<Resolved>) -> Self {
+        Self { n_kept: list.len(), list }
+    }
+
+    /// The nodes that have coordinates, and the others.
+    pub(super) fn into_nodes(self) -> [Vec<InterfaceNode>; 2] {
+        let mut nodes: Vec<InterfaceNode> = self.list.into_iter().map(|resolved| resolved.node).collect();
+        let left_out = nodes.split_off(self.n_kept);
+        [nodes, left_out]
+    }
+}
+
+/// The names of interface nodes by their number: those that have coordinates, then the others.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NodeNames<'a>(pub(super) [&'a [InterfaceNode]; 2]);
+
+impl<'a> NodeNames<'a> {
+    pub(super) fn of(self, number: usize) -> &'a str {
+        let [kept, left_out] = self.0;
+        kept.get(number).or_else(|| left_out.get(number - kept.len())).map_or("", |node| &node.name)
     }
 }

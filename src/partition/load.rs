@@ -3,6 +3,7 @@
 //! ```text
 //! f      n × 1      force on every row of the model, held ones among them
 //! Tᵀf    n' × 1     on the dofs that move: rows of a rigid patch load its interface node
+//! f_p    n × 1      pressure p: −p ∫ N n dA over the faces of the mesh between some nodes
 //! f_ω    n × 1      centrifugal load per ω²: M p, p = (I − aaᵀ)(x − c) at the translations of a node at x, a the axis through c
 //! ```
 //! The mass that couples dofs that move with held ones takes part in M p, as it does in gravity. Each f is kept with its largest entry
@@ -12,11 +13,12 @@ use faer::Mat;
 
 use super::interface::row_of_model;
 use super::node_catalogue::NodeCatalogue;
+use super::pressure::pressed;
 use super::transformation::Transformation;
 use crate::dense;
 use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result};
-use crate::input::LoadColumn;
+use crate::input::{LoadColumn, PatchFaces};
 use crate::job::{LoadJob, LoadPattern, NodeSelection, RotationJob};
 use crate::model::{Model, Site};
 use crate::sparse::product;
@@ -32,6 +34,8 @@ pub struct Loads {
     pub facts: Vec<LoadFacts>,
     /// TᵀF, n' × n_l, each column in its unit.
     pub vectors: Mat<f64>,
+    /// n_I.
+    n_internal: usize,
 }
 
 /// What is remembered of a load.
@@ -60,12 +64,17 @@ pub struct RowLoad {
 impl Loads {
     /// None.
     pub fn none(n_dofs: usize) -> Self {
-        Self { facts: Vec::new(), vectors: Mat::zeros(n_dofs, 0) }
+        Self { facts: Vec::new(), vectors: Mat::zeros(n_dofs, 0), n_internal: 0 }
     }
 
     /// n_l.
     pub fn count(&self) -> usize {
         self.facts.len()
+    }
+
+    /// Whether a load acts on internal dofs, which come first.
+    pub fn acts_inside(&self, load: usize) -> bool {
+        dense::column(self.vectors.as_ref(), load)[..self.n_internal].iter().any(|value| *value != 0.0)
     }
 
     /// TᵀF.
@@ -83,16 +92,23 @@ impl Loads {
                 return Err(Error::LoadNothing { load: load.facts.name.clone(), found: "all of it on held dofs" });
             }
         }
-        Ok(Self { facts: loads.into_iter().map(|load| load.facts).collect(), vectors })
+        let facts = loads.into_iter().map(|load| load.facts).collect();
+        Ok(Self { facts, vectors, n_internal: transformation.n_internal() })
     }
 }
 
-/// The loads of a job on all rows of a model; `columns` are those of its files, one for each load that has one.
+/// The loads of a job on all rows of a model; `columns` are those of its files, one for each load that has one, and `faces` what the mesh
+/// tells of faces.
 ///
 /// # Errors
-/// Nodes that do not exist or lack a direction of the force, a selection without nodes; a rotation without coordinates; a force on a row
-/// that was dropped; a load of nothing.
-pub fn loads(model: &Model, jobs: &[LoadJob], columns: &[Option<LoadColumn>]) -> Result<Vec<RowLoad>> {
+/// Nodes that do not exist or lack a direction of the force, a selection without nodes; a rotation without coordinates; a pressure without
+/// faces; a force on a row that was dropped; a load of nothing.
+pub fn loads(
+    model: &Model,
+    jobs: &[LoadJob],
+    columns: &[Option<LoadColumn>],
+    faces: &[PatchFaces],
+) -> Result<Vec<RowLoad>> {
     if jobs.is_empty() {
         return Ok(Vec::new());
     }
@@ -102,6 +118,10 @@ pub fn loads(model: &Model, jobs: &[LoadJob], columns: &[Option<LoadColumn>]) ->
             (LoadPattern::Force(nodes, force), _) => {
                 let (values, n_nodes) = shared_out(model, &catalogue, job, (nodes, force))?;
                 (values, 1.0, format!("force on {}", crate::number::counted(n_nodes, "node", "nodes")))
+            }
+            (LoadPattern::Pressure(nodes, pressure), _) => {
+                let (values, n_faces) = pressed(model, &catalogue, (job, nodes, pressure), faces)?;
+                (values, 1.0, format!("pressure on {}", crate::number::counted(n_faces, "face", "faces")))
             }
             (LoadPattern::File(..), Some(column)) => (of_file(model, job, column)?, 1.0, "file".to_owned()),
             (LoadPattern::File(..), None) => (vec![0.0; model.n_dofs()], 1.0, "file".to_owned()),

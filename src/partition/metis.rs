@@ -26,6 +26,21 @@ pub(super) struct Graph {
     pub(super) weights: Vec<i32>,
 }
 
+impl Graph {
+    /// The graph of some nodes, ascending, that have no neighbours but each other; `place` is memory for a number of each node of the whole.
+    pub(super) fn induced(&self, members: &[u32], place: &mut [u32]) -> Self {
+        members.iter().zip(0..).for_each(|(node, at)| place[*node as usize] = at);
+        let mut part = Self { starts: vec![0], neighbours: Vec::new(), weights: Vec::new() };
+        for node in members.iter().map(|node| *node as usize) {
+            let own = &self.neighbours[self.starts[node] as usize..self.starts[node + 1] as usize];
+            part.neighbours.extend(own.iter().map(|other| place[*other as usize] as i32));
+            part.starts.push(part.neighbours.len() as i32);
+            part.weights.push(self.weights[node]);
+        }
+        part
+    }
+}
+
 /// The nested-dissection order: `order[k]` is the node eliminated at step k. None where METIS refuses the graph.
 ///
 /// # Errors

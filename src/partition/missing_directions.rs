@@ -22,7 +22,7 @@ pub(super) fn constrained_nodes(model: &Model, interfaces: &Interfaces) -> Vec<F
     }
     let usual = [&Direction::ALL[..3], &Direction::ALL[3..]].map(|kind| usual_directions(&of_node, kind));
     let mut findings = Vec::new();
-    for Resolved { node, rows } in &interfaces.0 {
+    for Resolved { node, rows, .. } in &interfaces.list {
         let labels: BTreeSet<i64> = rows.all().iter().filter_map(|row| dofs[*row]).map(|dof| dof.node).collect();
         for label in labels {
             let has = &of_node[&label];

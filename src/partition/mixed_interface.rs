@@ -10,7 +10,7 @@ use faer::{Mat, MatRef};
 use super::interface_node::InterfaceNode;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
-use crate::job::HeldInterface;
+use crate::job::InterfacePart;
 use crate::sparse::{SparseMatrix, principal};
 
 /// What is held of an interface while modes are computed.
@@ -40,7 +40,7 @@ impl MixedInterface {
     ///
     /// # Errors
     /// [`Error::HeldInterface`]: a direction that no node of the interface has.
-    pub(super) fn new(nodes: &[InterfaceNode], held: &[HeldInterface], matrices: [&SparseMatrix; 2]) -> Result<Self> {
+    pub(super) fn new(nodes: &[InterfaceNode], held: &[InterfacePart], matrices: [&SparseMatrix; 2]) -> Result<Self> {
         let dofs = interface_dofs(nodes);
         let mut is_held = vec![false; dofs.len()];
         for job in held {
@@ -59,7 +59,7 @@ impl MixedInterface {
 }
 
 /// The places that a part of the job means among the names and directions of the interface dofs.
-fn places(dofs: &[(&str, Option<Direction>)], held: &HeldInterface) -> Vec<usize> {
+fn places(dofs: &[(&str, Option<Direction>)], held: &InterfacePart) -> Vec<usize> {
     let Some((name, direction)) = held.of(|name| dofs.iter().any(|(known, _)| *known == name)) else {
         return Vec::new();
     };

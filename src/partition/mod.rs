@@ -38,7 +38,9 @@ mod ordering;
 mod origin;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
+mod parts;
 mod placement;
+mod pressure;
 mod problem;
 mod quantities;
 mod reference_node;
@@ -46,6 +48,7 @@ mod region;
 mod rigid_patch;
 mod roundings;
 mod sites;
+mod statements;
 mod transformation;
 mod transformation_row;
 
@@ -54,6 +57,7 @@ pub(crate) use axes::{OF_THE_MODEL, of_job as axes_of_job};
 pub use expansion::{Expansion, ExpansionFacts, RowModes, expansion_modes};
 pub use faces::with_faces;
 pub use fitted::Fit;
+pub(crate) use fitted::{hole, sphere};
 pub use further_matrices::{CarriedMatrix, MatrixFacts, RowMatrix, further_matrices};
 pub use gravity::Gravity;
 pub use held::{Held, HeldSelection, held};

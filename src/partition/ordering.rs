@@ -9,10 +9,12 @@ use rayon::prelude::*;
 
 use super::metis::{Graph, nested_dissection};
 use super::minimum_degree::{minimum_degree, work};
+use super::parts::Parts;
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
 use crate::error::Result;
 use crate::model::Model;
+use crate::plan::Parting;
 
 /// Nodes whose neighbours one task lists.
 const NODES_PER_TASK: usize = 2048;
@@ -25,17 +27,43 @@ const NONE: u32 = u32::MAX;
 /// solids (16 to 25) 0.97 to 3.3 times, and where it won there, less than a millisecond.
 const FRAME: usize = 4;
 
-/// The new order of the partition's dofs: internal ones as they are eliminated, interface ones as they are.
-pub(super) fn elimination_order(model: &Model, transformation: &Transformation) -> Result<Vec<u32>> {
+/// The order of the partition's dofs.
+pub(super) struct Order {
+    /// Internal dofs as they are eliminated, interface ones as they are.
+    pub(super) dofs: Vec<u32>,
+    /// Where each part of the interior ends; one end where they are not told apart.
+    pub(super) part_ends: Vec<usize>,
+}
+
+/// The new order of the partition's dofs, by parts of the interior where a plan tells them apart.
+pub(super) fn elimination_order(model: &Model, transformation: &Transformation, apart: Parting) -> Result<Order> {
     let n_internal = transformation.n_internal();
     let nodes = InternalNodes::new(transformation, n_internal);
     let graph = node_graph(model, transformation, &nodes);
-    let mut order = Vec::with_capacity(transformation.dofs.len());
-    for node in order_of_nodes(&graph)? {
-        order.extend_from_slice(nodes.dofs(node as usize));
+    let parts = Parts::of(&graph, (model, transformation), |dof| nodes.of_dof.get(dof as usize).copied());
+    let mut order = Order { dofs: Vec::with_capacity(transformation.dofs.len()), part_ends: Vec::new() };
+    if parts.count < 2 || apart == Parting::Together {
+        order.take(&order_of_nodes(&graph)?, &nodes);
+    } else {
+        let mut members = vec![Vec::new(); parts.count];
+        parts.of_group.iter().zip(0u32..).for_each(|(part, group)| members[*part as usize].push(group));
+        let mut place = vec![NONE; parts.of_group.len()];
+        for members in &members {
+            let of_part = order_of_nodes(&graph.induced(members, &mut place))?;
+            let groups: Vec<u32> = of_part.into_iter().map(|at| members[at as usize]).collect();
+            order.take(&groups, &nodes);
+        }
     }
-    order.extend(n_internal as u32..transformation.dofs.len() as u32);
+    order.dofs.extend(n_internal as u32..transformation.dofs.len() as u32);
     Ok(order)
+}
+
+impl Order {
+    /// Adds the dofs of a part, by groups.
+    fn take(&mut self, groups: &[u32], nodes: &InternalNodes) {
+        groups.iter().for_each(|group| self.dofs.extend_from_slice(nodes.dofs(*group as usize)));
+        self.part_ends.push(self.dofs.len());
+    }
 }
 
 /// The order of least work among those that are worth finding.

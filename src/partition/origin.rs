@@ -19,7 +19,7 @@ pub(super) fn far_origins(model: &Model, interfaces: &Interfaces) -> Result<Vec<
     let Some(sites) = model.sites() else { return Ok(Vec::new()) };
     let size = size_of(&sites);
     let mut findings = Vec::new();
-    for Resolved { node, rows } in &interfaces.0 {
+    for Resolved { node, rows, .. } in &interfaces.list {
         let (Some(rows), Some(origin)) = (rows.of_patch(), node.position) else { continue };
         let places = || rows.iter().filter_map(|row| sites[*row]);
         let mean = |axis: usize| places().map(|site| site.position[axis]).sum::<f64>() / rows.len() as f64;

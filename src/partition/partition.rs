@@ -7,8 +7,9 @@ use faer::Mat;
 use crate::dofs::FileRows;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
-use crate::job::InterfaceJob;
+use crate::job::{InterfaceJob, SceneJob};
 use crate::model::{Bodies, CoordinateFit, Finding, Model, ModelFacts, Scaling, Site};
+use crate::plan::Parting;
 use crate::sparse::Pencil;
 use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
@@ -18,14 +19,14 @@ use super::further_matrices::CarriedMatrix;
 use super::gravity::Gravity;
 use super::held::Held;
 use super::interface::RecoveredRows;
-use super::interface_node::InterfaceNode;
+use super::interface_node::{InterfaceNode, NodeNames};
 use super::load::Loads;
 use super::mixed_interface::MixedInterface;
 use super::quantities::Quantities;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
-use super::{congruence, constraints, gravity, interface, missing_directions, ordering, origin};
+use super::{congruence, constraints, gravity, interface, missing_directions, ordering, origin, statements};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
 pub const LARGEST_INTERFACE: usize = 20_000;
@@ -39,10 +40,14 @@ pub struct Partition {
     pub mass: SparseMatrix,
     /// Number of internal dofs n_I; the rest are interface dofs.
     pub n_internal: usize,
+    /// Where each connected part of the interior ends; the interface separates them.
+    pub part_ends: Vec<usize>,
     /// What each dof of the partition is.
     pub dofs: Vec<ReducedDof>,
     /// The interface nodes in the order of their dofs.
     pub interface: Vec<InterfaceNode>,
+    /// Interface nodes that the scene leaves without dofs of the interface; their patches are as they are with them.
+    pub left_out: Vec<InterfaceNode>,
     /// Row of T for each row of the model.
     pub transformation: Transformation,
     /// What the job holds; its rows are at rest.
@@ -83,6 +88,28 @@ pub struct Partition {
     pub(super) mass_roundings: OnceLock<Roundings>,
 }
 
+/// The matrices of a partition, made from those of the model, which are gone then.
+struct Carried {
+    stiffness: SparseMatrix,
+    mass: SparseMatrix,
+    cancellation: f64,
+    patches: PatchEntries,
+    mass_patches: Option<PatchEntries>,
+}
+
+impl Carried {
+    fn of([stiffness, mass]: [SparseMatrix; 2], transformation: &Transformation, precision: Precision) -> Self {
+        let of_partition = congruence::congruence(&stiffness, transformation);
+        let cancellation = congruence::cancellation(&stiffness, &of_partition, transformation);
+        let patches = PatchEntries::of(&stiffness, transformation, precision.stiffness);
+        drop(stiffness);
+        let entries = |mass| PatchEntries::of(mass, transformation, precision.mass);
+        let mass_patches = precision.mass.is_beyond_entries().then(|| entries(&mass));
+        let mass = congruence::congruence(&mass, transformation);
+        Self { stiffness: of_partition, mass, cancellation, patches, mass_patches }
+    }
+}
+
 impl Partition {
     /// Resolves the interfaces, applies the rigid patches and the constraints by congruence and orders the internal dofs for elimination. The
     /// matrices of the model go as those of the partition come.
@@ -105,50 +132,66 @@ impl Partition {
     /// # Panics
     /// As [`Self::new`].
     pub fn with_held(model: Model, interfaces: &[InterfaceJob], held: Held) -> Result<Self> {
+        Self::in_scene(model, interfaces, held, (None, Parting::Apart))
+    }
+
+    /// The partition of a model of whose interface a scene asks less.
+    ///
+    /// # Errors
+    /// What [`Self::with_held`] refuses; a rigid body that moves interfaces of unknown coordinates, or whose motions they do not tell apart.
+    ///
+    /// # Panics
+    /// As [`Self::new`].
+    pub fn in_scene(
+        model: Model,
+        interfaces: &[InterfaceJob],
+        held: Held,
+        (scene, parting): (Option<&SceneJob>, Parting),
+    ) -> Result<Self> {
+        let mut held = held;
         let resolved = interface::resolve(&model, interfaces)?;
         held.refuse_interface(&model, &resolved)?;
         let far_origins = origin::far_origins(&model, &resolved)?;
+        let resolved = statements::heeded(&model, resolved, (scene, interfaces), &mut held)?;
         let transformation = Transformation::new(&model, &resolved, &held)?;
+        if transformation.dofs.is_empty() && held.count() > 0 {
+            return Err(Error::AllFixed { n_held: held.count(), n_dofs: model.n_dofs(), left: "no dof is left" });
+        }
+        let n_held = transformation.n_at_rest();
         let (transformation, n_dependent, constrained) = constraints::applied(&model, transformation)?;
-        let order = ordering::elimination_order(&model, &transformation)?;
-        let transformation = transformation.permuted(&order);
+        let order = ordering::elimination_order(&model, &transformation, parting)?;
+        let transformation = transformation.permuted(&order.dofs);
         let n_internal = transformation.n_internal();
         let n_interface = transformation.dofs.len() - n_internal;
         if n_interface > LARGEST_INTERFACE {
             return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
         }
         let mut findings = missing_directions::constrained_nodes(&model, &resolved);
-        let mut facts = ModelFacts { n_dependent, ..facts(&model, &transformation, &held) };
+        let mut facts = ModelFacts { n_dependent, n_held, ..facts(&model, &transformation, &held) };
         facts.findings.extend(constrained);
         let gravity = if held.count() > 0 { gravity::gravity(&model, &transformation) } else { None };
-        let stiffness = congruence::congruence(&model.stiffness, &transformation);
-        let cancellation = congruence::cancellation(&model.stiffness, &stiffness, &transformation);
-        let Precision { stiffness: of_stiffness, mass: of_mass } = model.precision;
-        let patches = PatchEntries::of(&model.stiffness, &transformation, of_stiffness);
-        drop(model.stiffness);
-        let mass = congruence::congruence(&model.mass, &transformation);
-        let mass_patches = of_mass.is_beyond_entries().then(|| PatchEntries::of(&model.mass, &transformation, of_mass));
-        drop(model.mass);
-        let interface = resolved.into_nodes();
+        let carried = Carried::of([model.stiffness, model.mass], &transformation, model.precision);
+        let Carried { stiffness, mass, .. } = &carried;
+        let [interface, left_out] = resolved.into_nodes();
+        let names = NodeNames([&interface, &left_out]);
         if model.constraints.is_some() {
-            if mass.data().iter().all(|value| *value == 0.0) {
-                return Err(Error::ConstraintAll { left: "leave no mass that moves".to_owned() });
-            }
-            refuse_loose([&stiffness, &mass], &transformation, (&interface, &facts.rows))?;
-            facts.n_bodies = n_bodies(&stiffness, &transformation);
+            refuse_loose([stiffness, mass], &transformation, (names, &facts.rows))?;
+            facts.n_bodies = n_bodies(stiffness, &transformation);
         }
         findings.extend(far_origins);
-        findings.extend(hanging_dofs(&stiffness, &transformation, (&interface, &facts.rows)));
+        findings.extend(hanging_dofs(stiffness, &transformation, (names, &facts.rows)));
         Ok(Self {
-            cancellation,
+            cancellation: carried.cancellation,
             fit: model.fit,
             model: facts,
             findings,
-            stiffness,
-            mass,
+            stiffness: carried.stiffness,
+            mass: carried.mass,
             n_internal,
+            part_ends: order.part_ends,
             dofs: transformation.dofs.clone(),
             interface,
+            left_out,
             transformation,
             held,
             gravity,
@@ -160,9 +203,9 @@ impl Partition {
             matrices: Vec::new(),
             scaling: model.scaling,
             precision: model.precision,
-            patches,
+            patches: carried.patches,
             roundings: OnceLock::new(),
-            mass_patches,
+            mass_patches: carried.mass_patches,
             mass_roundings: OnceLock::new(),
         })
     }
@@ -200,7 +243,7 @@ impl Partition {
 
     /// What a dof is called in messages.
     pub fn name_of(&self, dof: usize) -> String {
-        self.dofs[dof].name(&self.interface, &self.model.rows)
+        self.dofs[dof].name(NodeNames([&self.interface, &self.left_out]), &self.model.rows)
     }
 
     /// K and M.
@@ -228,12 +271,7 @@ fn facts(model: &Model, transformation: &Transformation, held: &Held) -> ModelFa
     let facts = model.facts();
     let moves = |row: usize| !matches!(transformation.rows[row], TransformationRow::Held);
     let n_bodies = if held.count() > 0 { model.n_bodies_among(moves) } else { facts.n_bodies };
-    ModelFacts {
-        n_held: held.count(),
-        n_bodies,
-        findings: untied(facts.findings.clone(), transformation, model),
-        ..facts
-    }
+    ModelFacts { n_bodies, findings: untied(facts.findings.clone(), transformation, model), ..facts }
 }
 
 /// The findings of a model without the particles that the job holds or that a rigid patch or constraints tie to others. A patch that no stiffness
@@ -256,14 +294,17 @@ fn untied(findings: Vec<Finding>, transformation: &Transformation, model: &Model
 fn refuse_loose(
     matrices: [&SparseMatrix; 2],
     transformation: &Transformation,
-    (interface, rows): (&[InterfaceNode], &FileRows),
+    (names, rows): (NodeNames<'_>, &FileRows),
 ) -> Result<()> {
+    if matrices[1].data().iter().all(|value| *value == 0.0) {
+        return Err(Error::ConstraintAll { left: "leave no mass that moves".to_owned() });
+    }
     let is_row = |dof: &ReducedDof| matches!(dof.origin, DofOrigin::Row(_));
     let dofs = transformation.dofs.iter().enumerate().filter(|(_, dof)| is_row(dof));
     let mut loose = dofs.filter(|(dof, _)| matrices.iter().all(|matrix| is_bare(matrix, *dof)));
     match loose.next() {
         None => Ok(()),
-        Some((_, first)) => Err(Error::ConstraintLoose { n_dofs: 1 + loose.count(), dof: first.name(interface, rows) }),
+        Some((_, first)) => Err(Error::ConstraintLoose { n_dofs: 1 + loose.count(), dof: first.name(names, rows) }),
     }
 }
 
@@ -285,10 +326,10 @@ fn is_bare(matrix: &SparseMatrix, dof: usize) -> bool {
 fn hanging_dofs(
     stiffness: &SparseMatrix,
     partition: &Transformation,
-    (interface, rows): (&[InterfaceNode], &FileRows),
+    (names, rows): (NodeNames<'_>, &FileRows),
 ) -> Option<Finding> {
     let hanging = (partition.n_internal()..partition.dofs.len()).filter(|dof| is_bare(stiffness, *dof));
     let hanging: Vec<usize> = hanging.collect();
     let first = *hanging.first()?;
-    Some(Finding::HangingInterface { dof: partition.dofs[first].name(interface, rows), n_dofs: hanging.len() })
+    Some(Finding::HangingInterface { dof: partition.dofs[first].name(names, rows), n_dofs: hanging.len() })
 }

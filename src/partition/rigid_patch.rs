@@ -1,6 +1,7 @@
 //! Rigid coupling: a patch of nodes moves with one node of six degrees of freedom as a rigid body.
 
 use super::axes;
+use super::elimination::{Terms, summed};
 use super::interface_node::{InterfaceNode, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
 use super::placement;
@@ -13,7 +14,7 @@ use crate::job::InterfaceJob;
 
 /// Smallest singular value of a patch's levers, relative to the largest and with rotations scaled to the patch's size,
 /// below which the patch cannot move in six independent ways: far above rounding, far below any real patch.
-const PATCH_RANK_TOLERANCE: f64 = 1e-8;
+pub(super) const PATCH_RANK_TOLERANCE: f64 = 1e-8;
 
 /// The node of a rigid patch with all rows of its nodes.
 pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
@@ -22,7 +23,7 @@ pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]
     for label in labels {
         rows.extend(catalogue.rows_of(&selector, *label)?.values());
     }
-    Ok(Resolved { node: interface_node(catalogue, job, labels)?, rows: Rows::Patch(rows) })
+    Ok(Resolved::new(interface_node(catalogue, job, labels)?, Rows::Patch(rows)))
 }
 
 /// The node of a patch without its rows, at the place that the job asks for.
@@ -52,20 +53,25 @@ pub(super) fn moves(sites: &Sites<'_>, (node, rows): (&InterfaceNode, &[usize]),
     rows.iter().any(|row| sites.lever(*row, position)[direction as usize] != 0.0)
 }
 
-/// How the rows of a patch follow the dofs of its node, `columns` by direction.
+/// How the rows of a patch follow the directions of its node, of which `columns` says what moves each: a dof, those of a carrier, or nothing.
 ///
 /// # Errors
 /// [`Error::PatchRank`] where the rows do not follow all of them independently.
 pub(super) fn tied_rows(
     sites: &Sites<'_>,
     (node, rows): (&InterfaceNode, &[usize]),
-    columns: [Option<u32>; 6],
+    columns: &[Terms; 6],
 ) -> Result<Vec<TransformationRow>> {
-    let levers = independent(sites, (node, rows), columns.iter().flatten().count())?;
+    let levers = independent(sites, (node, rows), columns.iter().filter(|terms| !terms.is_empty()).count())?;
+    let is_carried = columns.iter().any(|terms| terms.len() > 1);
     let entries_of = |lever: &[f64; 6]| {
-        let entries = lever.iter().zip(columns).filter(|(factor, _)| **factor != 0.0);
-        let entries = entries.filter_map(|(factor, column)| column.map(|column| (column, *factor)));
-        TransformationRow::Tied(entries.collect())
+        let moved = lever.iter().zip(columns).filter(|(factor, _)| **factor != 0.0);
+        let entries: Terms =
+            moved.flat_map(|(factor, terms)| terms.iter().map(move |(dof, share)| (*dof, factor * share))).collect();
+        match if is_carried { summed(entries) } else { entries } {
+            entries if entries.is_empty() => TransformationRow::Held,
+            entries => TransformationRow::Tied(entries.into()),
+        }
     };
     Ok(levers.iter().map(entries_of).collect())
 }

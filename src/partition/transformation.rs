@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::distortions::Owner;
 use super::elimination::{Terms, summed};
 use super::held::Held;
-use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
+use super::interface_node::{InterfaceNode, Interfaces, NodeNames, Resolved, Rows};
 use super::sites::Sites;
 use super::transformation_row::TransformationRow;
 use super::{average_patch, rigid_patch};
@@ -45,12 +45,12 @@ pub enum DofOrigin {
 
 impl ReducedDof {
     /// What the dof is called in messages.
-    pub(super) fn name(&self, interface: &[InterfaceNode], rows: &FileRows) -> String {
+    pub(super) fn name(&self, nodes: NodeNames<'_>, rows: &FileRows) -> String {
         match (self.origin, self.dof) {
-            (DofOrigin::PatchNode(node, direction), _) => format!("interface {} {direction}", interface[node].name),
-            (DofOrigin::Distortion(node, _), Some(dof)) => format!("{dof} in the patch of {}", interface[node].name),
+            (DofOrigin::PatchNode(node, direction), _) => format!("interface {} {direction}", nodes.of(node)),
+            (DofOrigin::Distortion(node, _), Some(dof)) => format!("{dof} in the patch of {}", nodes.of(node)),
             (DofOrigin::Distortion(node, number), None) => {
-                format!("interface {} distortion {}", interface[node].name, number + 1)
+                format!("interface {} distortion {}", nodes.of(node), number + 1)
             }
             (DofOrigin::Row(_), Some(dof)) => dof.to_string(),
             (DofOrigin::Row(row), None) => format!("row {}", rows.of(row) + 1),
@@ -72,13 +72,13 @@ impl Transformation {
     pub(super) fn new(model: &Model, interfaces: &Interfaces, held: &Held) -> Result<Self> {
         let n = model.n_dofs();
         let mut taken: Vec<bool> = (0..n).map(|row| held.holds(row)).collect();
-        for Resolved { rows, .. } in &interfaces.0 {
+        for Resolved { rows, .. } in &interfaces.list {
             for row in rows.all() {
                 taken[*row] = true;
             }
         }
         let sites = Sites::new(model);
-        let n_nodes = sites.n_nodes + interfaces.0.len() as u32;
+        let n_nodes = sites.n_nodes + interfaces.list.len() as u32;
         let mut builder =
             Builder { dofs: Vec::with_capacity(n), rows: vec![TransformationRow::Dof(u32::MAX); n], sites, n_nodes };
         for row in (0..n).filter(|row| held.holds(*row)) {
@@ -89,19 +89,28 @@ impl Transformation {
         }
         let distorted = builder.distort_patches(interfaces)?;
         for part in [Part::Internal, Part::Interface] {
-            for (index, resolved) in interfaces.0.iter().enumerate() {
+            for (index, resolved) in interfaces.list.iter().enumerate() {
                 match (&resolved.rows, part) {
-                    (Rows::Own(rows), Part::Interface) => rows.iter().for_each(|row| builder.own_row(*row, part)),
-                    (Rows::Own(_), Part::Internal) => {}
+                    (Rows::Own(rows), Part::Interface) if resolved.carrier.is_none() => {
+                        rows.iter().for_each(|row| builder.own_row(*row, part));
+                    }
+                    (Rows::Own(_), _) => {}
                     (Rows::Patch(rows) | Rows::Average { rows, .. }, _) => {
                         builder.patch_node(index, resolved, rows, part)
                     }
                 }
             }
         }
-        for (index, resolved) in interfaces.0.iter().enumerate() {
-            if let Some(rows) = resolved.rows.of_patch() {
-                builder.tie_patch(index, resolved, rows)?;
+        for (index, resolved) in interfaces.list.iter().enumerate() {
+            let carrier = resolved.carrier.map(|carrier| (carrier, &interfaces.list[carrier].node));
+            match (&resolved.rows, carrier) {
+                (Rows::Own(_), None) => {}
+                // The node of a carrier: its rows are those of the interfaces that it moves.
+                (Rows::Patch(rows), None) if rows.is_empty() => {}
+                (Rows::Own(rows), Some(carrier)) => builder.tie_own(resolved, rows, carrier),
+                (Rows::Patch(rows) | Rows::Average { rows, .. }, carrier) => {
+                    builder.tie_patch(index, (resolved, rows), carrier)?;
+                }
             }
         }
         for (row, own) in distorted {
@@ -139,6 +148,11 @@ impl Transformation {
             }
         };
         Self { dofs, rows: self.rows.into_iter().map(of_row).collect() }
+    }
+
+    /// Rows that nothing moves.
+    pub(super) fn n_at_rest(&self) -> usize {
+        self.rows.iter().filter(|row| matches!(row, TransformationRow::Held)).count()
     }
 
     /// Of each dof whether rows other than its own follow it.
@@ -222,7 +236,7 @@ impl Builder<'_> {
     /// Adds the distortions of patches whose mean motion counts as internal dofs, and gives their entries by rows.
     fn distort_patches(&mut self, interfaces: &Interfaces) -> Result<Vec<(usize, Entries)>> {
         let mut entries = Vec::new();
-        for (index, Resolved { node, rows }) in interfaces.0.iter().enumerate() {
+        for (index, Resolved { node, rows, .. }) in interfaces.list.iter().enumerate() {
             let Rows::Average { rows, weights } = rows else { continue };
             let moves = |direction: &Direction| {
                 node.directions.contains(direction) || rigid_patch::moves(&self.sites, (node, rows), *direction)
@@ -256,9 +270,12 @@ impl Builder<'_> {
         let position = resolved.node.position.unwrap_or_default();
         let listed = &resolved.node.directions;
         let directions: Vec<Direction> = match part {
+            Part::Interface if resolved.carrier.is_some() => Vec::new(),
             Part::Interface => listed.clone(),
             Part::Internal => {
-                let rest = Direction::ALL.into_iter().filter(|direction| !listed.contains(direction));
+                let is_taken =
+                    |direction: &Direction| listed.contains(direction) || resolved.grounded.contains(direction);
+                let rest = Direction::ALL.into_iter().filter(|direction| !is_taken(direction));
                 rest.filter(|direction| rigid_patch::moves(&self.sites, (&resolved.node, rows), *direction)).collect()
             }
         };
@@ -273,16 +290,48 @@ impl Builder<'_> {
         }
     }
 
-    fn tie_patch(&mut self, index: usize, resolved: &Resolved, rows: &[usize]) -> Result<()> {
-        let mut columns = [None; 6];
+    /// The dofs of the node of a patch or of a carrier, by direction; nothing where a direction has none.
+    fn dofs_of_node(&self, index: usize) -> [Terms; 6] {
+        let mut columns: [Terms; 6] = Default::default();
         for (column, dof) in self.dofs.iter().enumerate() {
             if let DofOrigin::PatchNode(node, direction) = dof.origin
                 && node == index
             {
-                columns[direction as usize] = Some(column as u32);
+                columns[direction as usize].push((column as u32, 1.0));
             }
         }
-        let tied = rigid_patch::tied_rows(&self.sites, (&resolved.node, rows), columns)?;
+        columns
+    }
+
+    /// How a lever over the six dofs of a carrier moves.
+    fn carried(&self, lever: &[f64; 6], carrier: usize) -> Terms {
+        let dofs = self.dofs_of_node(carrier);
+        let moved = lever.iter().zip(dofs).filter(|(factor, _)| **factor != 0.0);
+        moved.flat_map(|(factor, terms)| terms.into_iter().map(move |(dof, _)| (dof, *factor))).collect()
+    }
+
+    /// Lets rows of nodes follow a carrier.
+    fn tie_own(&mut self, resolved: &Resolved, rows: &[usize], (carrier, node): (usize, &InterfaceNode)) {
+        let levers = resolved.levers(&self.sites, node.position.unwrap_or_default());
+        for (row, lever) in rows.iter().zip(&levers) {
+            self.rows[*row] = TransformationRow::Tied(self.carried(lever, carrier).into());
+        }
+    }
+
+    fn tie_patch(
+        &mut self,
+        index: usize,
+        (resolved, rows): (&Resolved, &[usize]),
+        carrier: Option<(usize, &InterfaceNode)>,
+    ) -> Result<()> {
+        let mut columns = self.dofs_of_node(index);
+        if let Some((carrier, node)) = carrier {
+            let levers = resolved.levers(&self.sites, node.position.unwrap_or_default());
+            for (direction, lever) in resolved.node.directions.iter().zip(&levers) {
+                columns[*direction as usize] = self.carried(lever, carrier);
+            }
+        }
+        let tied = rigid_patch::tied_rows(&self.sites, (&resolved.node, rows), &columns)?;
         for (row, entries) in rows.iter().zip(tied) {
             self.rows[*row] = entries;
         }

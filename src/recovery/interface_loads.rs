@@ -46,7 +46,7 @@ impl<'a> InterfaceLoads<'a> {
         let terms = [
             (Some(&tensors.stiffness), Order::Displacement),
             (tensors.damping.as_ref(), Order::Velocity),
-            (Some(&tensors.mass), Order::Acceleration),
+            (Some(&tensors.mass).filter(|mass| mass.rows() > 0), Order::Acceleration),
         ];
         let products = terms.into_iter().filter_map(|(matrix, order)| Some(times(matrix?, row, state.of(order)?)));
         products.sum::<f64>() - self.weight.as_ref().map_or(0.0, |weight| weight[row])

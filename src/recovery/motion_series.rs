@@ -1,8 +1,8 @@
-//! Motion of the recovered nodes as a series for ParaView: a vertex at each node, W q, W q̇ and W q̈ as vectors.
+//! Motion of the recovered nodes as a series for ParaView, on the faces between them: W q, W q̇ and W q̈ as vectors.
 
 use std::path::Path;
 
-use supel_runtime::Recovery;
+use supel_runtime::{RecoveredFaces, Recovery};
 
 use super::product::times;
 use super::state::{Order, State};
@@ -49,7 +49,8 @@ impl<'a> MotionSeries<'a> {
             (0..n_kinds).flat_map(|kind| orders.iter().map(move |order| (*order, kind))).collect();
         let named = |(order, kind): &(Order, usize)| Field { name: KINDS[*kind][*order as usize], n_components: 3 };
         let names: Vec<Field> = fields.iter().map(named).collect();
-        let series = Series::create(path, rows.len(), &Cells::vertices(rows.len()), &names);
+        let faces = recovery.faces().into_iter().flat_map(RecoveredFaces::iter);
+        let series = Series::create(path, rows.len(), &Cells::of_faces(faces, rows.len()), &names);
         let series = series.map_err(|error| renamed(error, name))?;
         Ok(Self { recovery, positions, rows, fields, series, name, is_first: true })
     }

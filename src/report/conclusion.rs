@@ -24,16 +24,21 @@ pub(crate) enum MatrixDigits {
 
 /// The line at the end of a summary: what passed, what did not, and with what reservations.
 pub(crate) fn conclusion(checks: &[Check], n_warnings: usize, verdict: Verdict, open: &Open) -> String {
+    concluded("verified", checks, n_warnings, (verdict, open))
+}
+
+/// The line of [`conclusion`] with another word for a subject whose checks passed.
+pub(crate) fn concluded(done: &str, checks: &[Check], n_warnings: usize, (verdict, open): (Verdict, &Open)) -> String {
     let n_judged = checks.iter().filter(|check| check.is_judged()).count();
     let judged = counted(n_judged, "check", "checks");
     let failed = identifiers(checks, Verdict::Fail);
     match verdict {
-        Verdict::Info | Verdict::Pass => format!("✓ verified: {judged} passed"),
-        Verdict::Warn => format!("! verified, with {}", reservations(checks, n_warnings)),
-        Verdict::Fail if failed.is_empty() => "✗ not verified: modes are missing".to_owned(),
+        Verdict::Info | Verdict::Pass => format!("✓ {done}: {judged} passed"),
+        Verdict::Warn => format!("! {done}, with {}", reservations(checks, n_warnings)),
+        Verdict::Fail if failed.is_empty() => format!("✗ not {done}: modes are missing"),
         Verdict::Fail => {
             let doubt = if open.share > NOTICED_BAR { doubt(open) } else { String::new() };
-            format!("✗ not verified: {} of {judged} failed: {}{doubt}", failed.len(), failed.join(", "))
+            format!("✗ not {done}: {} of {judged} failed: {}{doubt}", failed.len(), failed.join(", "))
         }
     }
 }

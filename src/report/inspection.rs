@@ -65,6 +65,7 @@ fn head(page: &mut Page, superelement: &Superelement, file_bytes: u64) {
     for flag in &metadata.flags {
         let text = match flag {
             Flag::SingularMass => "the mass matrix is semidefinite and cannot be factored",
+            Flag::StiffnessOnly => "for statics alone: no mass, no modes",
             Flag::Preloaded => "preloaded: translations alone are free, for small rotations in linear analyses",
         };
         page.entry("note", text);

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use super::{Completeness, Report, RunFacts, words};
+use super::{CertifiedModel, Completeness, Report, RunFacts, words};
 use crate::error::Warning;
 use crate::number::scientific;
 use crate::verification::check::{Check, Verdict};
@@ -36,20 +36,41 @@ enum Outcome {
 /// One suite for the run; a test for each check, one for completeness, one for each warning.
 pub fn junit(report: &Report, warnings: JunitWarnings) -> String {
     let body = &report.body;
-    let mut cases: Vec<(String, Outcome)> =
-        body.checks.iter().map(|check| (format!("{} {}", check.id, check.name), of_check(check, warnings))).collect();
+    let mut cases = of_checks(&body.checks, warnings);
     cases.push(("completeness of the modes".to_owned(), of_completeness(&body.completeness, warnings)));
     cases.extend(body.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, warnings))));
+    let seconds: f64 = report.run.stages.iter().map(|stage| stage.seconds).sum();
+    written(&suite(report), seconds, |xml| write_properties(xml, &report.run), cases)
+}
+
+/// One suite for what another program computed; a test for each check and for each warning of the model.
+pub(super) fn certified(subject: &str, checks: &[Check], model: &CertifiedModel, warnings: JunitWarnings) -> String {
+    let mut cases = of_checks(checks, warnings);
+    cases.extend(model.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, warnings))));
+    let name = format!("certification of {subject}, {} degrees of freedom", model.n_dofs);
+    written(&escaped(&name), 0.0, |_| {}, cases)
+}
+
+fn of_checks(checks: &[Check], warnings: JunitWarnings) -> Vec<(String, Outcome)> {
+    checks.iter().map(|check| (format!("{} {}", check.id, check.name), of_check(check, warnings))).collect()
+}
+
+/// The document of one suite, whose name is escaped.
+fn written(
+    suite: &str,
+    seconds: f64,
+    write_properties: impl FnOnce(&mut String),
+    cases: Vec<(String, Outcome)>,
+) -> String {
     let n_failed = cases.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Failed { .. })).count();
     let n_skipped = cases.iter().filter(|(_, outcome)| matches!(outcome, Outcome::Skipped(_))).count();
-    let seconds: f64 = report.run.stages.iter().map(|stage| stage.seconds).sum();
     let counts = format!(
         "tests=\"{}\" failures=\"{n_failed}\" errors=\"0\" skipped=\"{n_skipped}\" time=\"{seconds:.3}\"",
         cases.len()
     );
     let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    let _ = writeln!(xml, "<testsuites name=\"supel\" {counts}>\n  <testsuite name=\"{}\" {counts}>", suite(report));
-    write_properties(&mut xml, &report.run);
+    let _ = writeln!(xml, "<testsuites name=\"supel\" {counts}>\n  <testsuite name=\"{suite}\" {counts}>");
+    write_properties(&mut xml);
     let mut seen: Vec<String> = Vec::new();
     for (name, outcome) in cases {
         // Servers take tests of one name for one test.

@@ -4,6 +4,8 @@
 //! and in any folder. Times, memory, threads and paths are facts of the run and are kept apart from it.
 
 mod assembly;
+mod certification;
+mod certified_result;
 mod conclusion;
 mod expansion;
 mod html;
@@ -13,11 +15,13 @@ mod junit;
 mod load;
 pub(crate) mod mode_table;
 pub(crate) mod page;
+mod plan;
 mod printable;
 mod reduction;
 mod rigid_body;
 mod stages;
 pub(crate) mod summary;
+mod superelement;
 pub(crate) mod table;
 mod trust;
 mod verification;
@@ -37,21 +41,25 @@ use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
 
 pub use assembly::ModesReport;
+pub use certification::{CertificationReport, CertifiedModel, ResultReport};
+pub use certified_result::CertifiedResult;
 pub use expansion::{ExpansionReport, ExpansionRow};
 pub use html::{escaped, html};
 pub use inspection::inspection;
 pub use junit::{JunitWarnings, junit};
 pub use load::{LoadReport, ResidualVector};
 pub use page::Paint;
-use printable::json_text;
+pub use plan::PlanReport;
+pub(crate) use printable::json_text;
 pub(crate) use printable::{field, is_plain_field, printable, value_text};
 pub use reduction::{
     DroppedCoordinate, FacesReport, InterfacePosition, InterfaceReport, ModeKind, ModeRow, PositionOrigin,
-    ReductionReport,
+    ReductionReport, SkippedReport,
 };
 pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
+pub use superelement::{ReducedReport, ReducedSource};
 pub use trust::TrustInterval;
 pub use verification::{Against, Reproduction, VerificationReport};
 pub use words::unmet_check;
@@ -117,9 +125,10 @@ pub struct ModelReport {
     pub held: Option<HeldReport>,
     /// K.
     pub stiffness: MatrixReport,
-    /// M.
-    pub mass: MatrixReport,
-    /// BLAKE3 digests of the other files by their role: `dofs`, `nodes`, `nodes_data` for what those refer to, `quantities` and
+    /// M; none where its file was not opened, because nothing asked depends on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass: Option<MatrixReport>,
+    /// BLAKE3 digests of the other files by their role: `dofs`, `dofs_data` for what CalculiX wrote next to the map, `nodes`, `nodes_data` for what those refer to, `quantities` and
     /// `quantity_names`.
     pub files: BTreeMap<&'static str, String>,
     /// What M says of the component as a rigid body.

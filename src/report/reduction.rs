@@ -39,6 +39,9 @@ pub struct ReductionReport {
     pub loads: Vec<LoadReport>,
     /// Coordinates that were left out because others span them.
     pub dropped: Vec<DroppedCoordinate>,
+    /// What the scene let the run leave out; nothing where it asks for everything.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub skipped: Vec<SkippedReport>,
     /// The elastic modes in ascending order.
     pub modes: Vec<ModeRow>,
 }
@@ -128,6 +131,15 @@ pub struct DroppedCoordinate {
     pub coordinate: String,
     /// Why, with the number that decided.
     pub reason: String,
+}
+
+/// What the scene let a run leave out.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SkippedReport {
+    /// The rule by which: `K-1`.
+    pub rule: String,
+    /// What, in words.
+    pub what: String,
 }
 
 /// One elastic mode.

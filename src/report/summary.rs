@@ -1,7 +1,7 @@
 //! The report as text for people: at most 100 columns, the same words as the JSON document.
 
 pub(crate) mod body;
-mod preserved;
+pub(crate) mod preserved;
 mod run;
 
 use super::Report;

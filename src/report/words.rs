@@ -22,6 +22,7 @@ pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
 pub(super) fn file(role: &str) -> &str {
     match role {
         "dofs" => "dof map",
+        "dofs_data" => "nodes made of shells and beams",
         "nodes_data" => "data of nodes",
         "quantity_names" => "names of quantities",
         other => other,
@@ -116,6 +117,9 @@ pub(super) fn coordinates(reduction: &ReductionReport) -> Vec<String> {
     }
     parts
 }
+
+/// Of a mass that was not read.
+pub(super) const NO_MASS: &str = "not read: the scene asks for statics alone";
 
 /// What is special about the reduced mass, where something is.
 pub(super) fn mass(reduction: &ReductionReport) -> Option<String> {

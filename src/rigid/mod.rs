@@ -13,6 +13,7 @@
 
 mod algebraic;
 mod energy;
+mod facts;
 mod geometric;
 mod of_partition;
 mod passing;
@@ -24,8 +25,9 @@ mod shift;
 pub use algebraic::from_matrices;
 pub(crate) use algebraic::{ZeroModes, refuse_uncounted, zero_modes};
 pub(crate) use energy::{largest_residual, noise_of_digits, zero_energy};
+pub use facts::facts;
 pub(crate) use geometric::{NO_MASS, moving_directions};
-pub use of_partition::{from_coordinates, rigid_body_modes};
+pub use of_partition::{counted_by_matrices, from_coordinates, rigid_body_modes};
 pub use passing::with_passing;
 pub(crate) use passing::{n_passing, passing_motions, that_pass};
 pub use rank::{ILL_CONDITIONED, InterfaceRank, confirmed_rank, interface_rank, or_lack_of_rank};

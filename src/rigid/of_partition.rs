@@ -22,6 +22,19 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
     let rigid = geometric::rigid_body_modes(partition, &sites)?;
     refuse_wholly_rigid(partition, &rigid)?;
     if partition.n_interface() > 0 || rigid.count() == 0 {
+        Ok((rigid, 0))
+    } else {
+        counted_by_matrices(partition, rigid)
+    }
+}
+
+/// The motions without energy by the matrices, where there are more than coordinates tell: mechanisms are among them. Modes that come from
+/// the matrices have all of them. With it the factorisations that it took.
+///
+/// # Errors
+/// The errors of [`from_matrices`].
+pub fn counted_by_matrices(partition: &Partition, rigid: RigidBodyModes) -> Result<(RigidBodyModes, usize)> {
+    if partition.sites().is_none() {
         return Ok((rigid, 0));
     }
     let (every, n_factorisations) = from_matrices(partition)?;

@@ -78,7 +78,11 @@ pub(crate) fn n_passing(motions: MatRef<'_, f64>, scales: &[f64], held: &[usize]
     }
     // Motions of one length, so that none is small by itself.
     let of = |at: usize, j: usize| motions[(at, j)] / scales[at];
-    let length = |j: usize| dense::norm(&(0..motions.nrows()).map(|at| of(at, j)).collect::<Vec<f64>>());
+    // One that leaves the whole interface at rest has no length there.
+    let length = |j: usize| match dense::norm(&(0..motions.nrows()).map(|at| of(at, j)).collect::<Vec<f64>>()) {
+        0.0 => 1.0,
+        length => length,
+    };
     let lengths: Vec<f64> = (0..n_r).map(length).collect();
     let at_held = Mat::from_fn(held.len().max(n_r), n_r, |i, j| held.get(i).map_or(0.0, |at| of(*at, j) / lengths[j]));
     let (singular, _) = dense::right_singular(at_held.as_ref())?;

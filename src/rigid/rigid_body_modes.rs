@@ -7,6 +7,7 @@ pub use supel_runtime::RigidBodyModes as RigidSource;
 use crate::dense;
 use crate::job::Boundary;
 use crate::partition::{InterfaceNode, Partition};
+use crate::plan::Relief;
 use crate::sparse::{SparseMatrix, product};
 
 /// The rigid-body modes of a partition.
@@ -64,6 +65,19 @@ impl RigidBodyModes {
                 && partition.interface.iter().all(is_patch)
         };
         self.is_classical && self.n_mechanisms == 0 && (self.source == RigidSource::Geometric || is_of_patches())
+    }
+
+    /// What the file calls them.
+    pub fn in_file(&self, partition: &Partition) -> RigidSource {
+        match self.are_unit_motions(partition) {
+            true => RigidSource::Geometric,
+            false => RigidSource::Algebraic,
+        }
+    }
+
+    /// Numbers of those that have a column of inertia relief.
+    pub fn relieved(&self, partition: &Partition, relief: Relief) -> Vec<usize> {
+        relief.motions(self.count(), self.in_file(partition))
     }
 
     /// The motions of Q that have mass, n' × (n_r − n_massless), M-orthonormal.

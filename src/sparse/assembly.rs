@@ -11,9 +11,8 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::by_rows::{balanced_ranges, split_by_rows};
-use super::{AssemblyNotes, Declared, SparseMatrix, Triplets};
+use super::{AssemblyNotes, Declared, SparseMatrix, TripletBlocks, Triplets};
 use crate::error::{Error, Result};
-use crate::heap::fallibly;
 
 impl Triplets {
     /// Number of entries.
@@ -26,16 +25,6 @@ impl Triplets {
         self.values.is_empty()
     }
 
-    /// Makes room for more entries, where there is memory for them: what comes may be fewer.
-    pub fn expect(&mut self, n_entries: usize) {
-        // Without room the lists grow with what comes.
-        let _ = fallibly(|| {
-            self.rows.try_reserve_exact(n_entries)?;
-            self.cols.try_reserve_exact(n_entries)?;
-            self.values.try_reserve_exact(n_entries)
-        });
-    }
-
     /// Appends one entry: row, column, value, zero-based.
     pub fn push(&mut self, row: u32, col: u32, value: f64) {
         self.rows.push(row);
@@ -43,11 +32,69 @@ impl Triplets {
         self.values.push(value);
     }
 
-    /// Appends the entries of another list after the own.
-    pub fn append(&mut self, other: &Self) {
-        self.rows.extend_from_slice(&other.rows);
-        self.cols.extend_from_slice(&other.cols);
-        self.values.extend_from_slice(&other.values);
+    /// An empty list with room for so many entries.
+    pub fn with_capacity(n_entries: usize) -> Self {
+        let (rows, cols) = (Vec::with_capacity(n_entries), Vec::with_capacity(n_entries));
+        Self { rows, cols, values: Vec::with_capacity(n_entries) }
+    }
+
+    /// Row, column and value of each entry, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, u32, f64)> {
+        self.rows.iter().zip(&self.cols).zip(&self.values).map(|((&row, &col), &value)| (row, col, value))
+    }
+
+    /// [`TripletBlocks::assemble`] of one block.
+    ///
+    /// # Errors
+    /// Those of [`TripletBlocks::assemble`].
+    pub fn assemble(self, n: usize, declared: Declared, path: &Path) -> Result<(SparseMatrix, AssemblyNotes)> {
+        TripletBlocks::from(self).assemble(n, declared, path)
+    }
+}
+
+impl From<Triplets> for TripletBlocks {
+    fn from(block: Triplets) -> Self {
+        Self { blocks: vec![block] }
+    }
+}
+
+impl TripletBlocks {
+    /// Number of entries.
+    pub fn len(&self) -> usize {
+        self.blocks.iter().map(Triplets::len).sum()
+    }
+
+    /// True without entries.
+    pub fn is_empty(&self) -> bool {
+        self.blocks.iter().all(Triplets::is_empty)
+    }
+
+    /// Row, column and value of each entry, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (u32, u32, f64)> {
+        self.blocks.iter().flat_map(Triplets::iter)
+    }
+
+    /// Puts all entries below the diagonal where every pair of a row and a column is given once, some this way round and some the other.
+    pub fn fold_where_given_once(&mut self) {
+        let first = |side: fn(u32, u32) -> bool| self.iter().find(|&(row, col, _)| side(row, col));
+        let (Some((row, col, _)), Some(_)) = (first(|row, col| row > col), first(|row, col| row < col)) else { return };
+        // A whole matrix has the mirror image of each entry, that of the first one, too.
+        if self.iter().any(|(other_row, other_col, _)| (other_row, other_col) == (col, row)) {
+            return;
+        }
+        let key = |row: u32, col: u32| (u64::from(row) << 32) | u64::from(col);
+        let mut above: Vec<u64> = Vec::new();
+        above.extend(self.iter().filter(|(row, col, _)| row < col).map(|(row, col, _)| key(col, row)));
+        above.par_sort_unstable();
+        let is_twice = |(row, col, _): (u32, u32, f64)| row > col && above.binary_search(&key(row, col)).is_ok();
+        if self.blocks.par_iter().any(|block| block.iter().any(is_twice)) {
+            return;
+        }
+        for Triplets { rows, cols, .. } in &mut self.blocks {
+            for (row, col) in rows.iter_mut().zip(cols).filter(|(row, col)| row < col) {
+                std::mem::swap(row, col);
+            }
+        }
     }
 
     /// Assembles the n × n matrix: mirrors the triangle of a symmetric source, adds duplicates in the order of the
@@ -62,12 +109,10 @@ impl Triplets {
     /// name the line.
     pub fn assemble(self, n: usize, declared: Declared, path: &Path) -> Result<(SparseMatrix, AssemblyNotes)> {
         let n_entries = self.len();
-        assert!(
-            self.rows.len() == n_entries && self.cols.len() == n_entries,
-            "{} rows, {} columns, {n_entries} values",
-            self.rows.len(),
-            self.cols.len()
-        );
+        for Triplets { rows, cols, values } in &self.blocks {
+            let lengths = (rows.len(), cols.len(), values.len());
+            assert!(lengths.0 == lengths.2 && lengths.1 == lengths.2, "rows, columns and values: {lengths:?}");
+        }
         let (lower, upper) = (self.first_where(|row, col| row > col), self.first_where(|row, col| row < col));
         let mirror = match (declared, lower, upper) {
             (Declared::Symmetric | Declared::Skew, Some(lower), Some(upper)) => {
@@ -97,8 +142,8 @@ impl Triplets {
 
     /// Row and column, from 1, of the first entry on one side of the diagonal.
     fn first_where(&self, side: impl Fn(u32, u32) -> bool) -> Option<(u64, u64)> {
-        let found = self.rows.iter().zip(&self.cols).find(|&(&row, &col)| side(row, col));
-        found.map(|(&row, &col)| (u64::from(row) + 1, u64::from(col) + 1))
+        let found = self.iter().find(|&(row, col, _)| side(row, col));
+        found.map(|(row, col, _)| (u64::from(row) + 1, u64::from(col) + 1))
     }
 }
 
@@ -112,9 +157,10 @@ enum Mirror {
 }
 
 /// Where each row starts, n + 1 values, duplicates counted.
-fn row_pointers(triplets: &Triplets, n: usize, mirror: Mirror) -> Vec<usize> {
+fn row_pointers(triplets: &TripletBlocks, n: usize, mirror: Mirror) -> Vec<usize> {
     let mut pointers = vec![0_usize; n + 1];
-    for (&row, &col) in triplets.rows.iter().zip(&triplets.cols) {
+    let places = triplets.blocks.iter().flat_map(|block| block.rows.iter().zip(&block.cols));
+    for (&row, &col) in places {
         let (row, col) = (row as usize, col as usize);
         assert!(row < n && col < n, "entry ({row}, {col}) in a matrix of order {n}");
         pointers[row + 1] += 1;
@@ -134,7 +180,7 @@ fn row_pointers(triplets: &Triplets, n: usize, mirror: Mirror) -> Vec<usize> {
 ///
 /// Every range of rows is filled by one task that passes over all triplets: reading them once per task is cheaper than
 /// sharing the scattered writes.
-fn scatter(triplets: &Triplets, pointers: &[usize], mirror: Mirror) -> (Vec<u32>, Vec<f64>) {
+fn scatter(triplets: &TripletBlocks, pointers: &[usize], mirror: Mirror) -> (Vec<u32>, Vec<f64>) {
     let n_stored = pointers.last().copied().unwrap_or(0);
     let mut indices = vec![0_u32; n_stored];
     let mut data = vec![0.0; n_stored];
@@ -154,7 +200,7 @@ fn scatter(triplets: &Triplets, pointers: &[usize], mirror: Mirror) -> (Vec<u32>
                 data[at] = value;
             }
         };
-        for ((&row, &col), &value) in triplets.rows.iter().zip(&triplets.cols).zip(&triplets.values) {
+        for (row, col, value) in triplets.iter() {
             put(row, col, value);
             if mirror != Mirror::Off && row != col {
                 put(col, row, if mirror == Mirror::Negated { -value } else { value });

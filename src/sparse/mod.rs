@@ -28,6 +28,11 @@ pub use triangle::Triangle;
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
 
+/// Whether a matrix has no entry other than zero off its diagonal.
+pub(crate) fn is_diagonal(matrix: &SparseMatrix) -> bool {
+    matrix.iter().all(|(value, (row, col))| row == col || *value == 0.0)
+}
+
 /// The largest order a matrix may have, 2³¹ − 1: what METIS and 32-bit row indices can number.
 pub const MAX_ORDER: usize = i32::MAX as usize;
 
@@ -60,6 +65,13 @@ pub struct Triplets {
     pub cols: Vec<u32>,
     /// Value of each entry.
     pub values: Vec<f64>,
+}
+
+/// Entries of a matrix in the order of their file, block after block: a list that grows would be held twice each time it moves.
+#[derive(Clone, Debug, Default)]
+pub struct TripletBlocks {
+    /// The blocks.
+    pub blocks: Vec<Triplets>,
 }
 
 /// What assembling a matrix did beyond copying, for the user.

@@ -118,7 +118,7 @@ fn equilibrium(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
         value: worst.value,
         limits,
         fail_above: limits.value().max(FAIL),
-        worst: worst.name(evidence, column_is(rubin.n_interface(), "attachment mode")),
+        worst: worst.name(evidence, column_is(evidence, "attachment mode")),
     })
 }
 

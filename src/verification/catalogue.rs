@@ -47,8 +47,14 @@ impl Proof {
 pub enum Recorded {
     /// By every reduction, this many times at least.
     Always(usize),
-    /// Where the reduction has an interface.
-    WithInterface,
+    /// By every reduction, this many times at least where it has a mass and where it does without one.
+    WithMass([usize; 2]),
+    /// Where the interface at rest holds the component, as it does unless the method is Rubin's.
+    WithConstraintModes,
+    /// Where such an interface is there.
+    WithCarryingInterface,
+    /// Where Rubin's static modes stand in the place of constraint modes, this many times.
+    WithAttachmentModes(usize),
     /// Where the job asks for the count of modes or for their enclosure.
     WithCount,
     /// Where a load has a residual vector, kept or left out.
@@ -78,7 +84,7 @@ pub struct Entry {
 
 /// The entry of the check `id`; none where no check has this identifier.
 pub fn entry(id: &str) -> Option<&'static Entry> {
-    CATALOGUE.iter().find(|entry| entry.id == id)
+    CATALOGUE.iter().chain(OF_RESULTS).find(|entry| entry.id == id)
 }
 
 const fn line(
@@ -91,12 +97,87 @@ const fn line(
     Entry { id, proof, recorded, meaning, remedy }
 }
 
-/// Every check, in the order of the identifiers.
+/// Checks of eigenpairs of another program, in addition to those of the catalogue that say the same of both.
+pub const OF_RESULTS: &[Entry] = &[
+    line(
+        "C-01",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "The frequency of each pair is compared with the one that belongs to its shape, or where the shape is a poor one with the mode \
+         that it mostly is. How far that itself may be from a frequency of K and M, by the force that is left over, is added.",
+        "Look at the pair named: frequencies in the order of the shapes, enough iterations, enough digits written.",
+    ),
+    line(
+        "C-02",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "A pair is invented where its shape leaves a large force over and no mode of the band has half of it: K and M have nothing like it \
+         there.",
+        "The other program did not converge, or factored a singular matrix: a free component needs a shift below zero.",
+    ),
+    line(
+        "C-03",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "No shape is made up of the others: what is left of it beside them is a mode of its own, too. Otherwise one vibration is \
+         counted twice.",
+        "Ask for another start vector or a stricter tolerance; a repeated frequency needs a block method or full orthogonalisation.",
+    ),
+    line(
+        "C-04",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "A free component moves as a rigid body at frequency zero, in as many ways as K lets pass. A result that has some of these motions \
+         needs all of them; one that has none may have left them out on purpose.",
+        "Ask for as many modes more, or give a --band that begins above zero.",
+    ),
+    line(
+        "C-05",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Rigid-body motion has no frequency. What a result states of it is rounding, relative to the first elastic mode.",
+        "A shift at zero factors a singular matrix; otherwise a weak spring holds the component, see M-05.",
+    ),
+    line(
+        "C-06",
+        Proof::Shown,
+        Recorded::Sometimes,
+        "Modal masses of the shapes as they are written. Nothing here depends on them; a program that takes the shapes for mass-normalised \
+         does.",
+        "Divide each shape by the root of its modal mass where they are to be one.",
+    ),
+    line(
+        "C-07",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "The reduced matrices of a superelement are those of K and M on its basis, entry by entry. The factor says how an entry differs: one \
+         that is the same everywhere is a unit.",
+        "Basis and matrices are not of one run, or the columns are in another order; look at the coordinate named.",
+    ),
+    line(
+        "C-08",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Frequencies of the superelement with its interface free against those of the component, one to one, within the band. Above it \
+         they may differ.",
+        "Keep more modes, or ask for a --band that ends lower.",
+    ),
+    line(
+        "C-09",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Each mode of the free component in the band is made up of the columns of the basis as well as they can. What is left over is a \
+         motion that the superelement does not know; most of a mode left over is a mode that it has not.",
+        "A mode was lost on the way, or too few were kept.",
+    ),
+];
+
+/// Every check of a reduction, in the order of the identifiers.
 pub const CATALOGUE: &[Entry] = &[
     line(
         "M-01",
         Proof::Measured,
-        Recorded::Always(1),
+        Recorded::WithMass([1, 0]),
         "Each mode and its frequency are put back into the full equation K x = λ M x; the value is the force that is left \
          over, relative to the matrices. It says how far the mode is from being an exact mode of the supplied matrices.",
         "The iteration has not converged on this mode: compare with --eigensolver arpack and look at the mode named.",
@@ -104,7 +185,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-02",
         Proof::Measured,
-        Recorded::Always(1),
+        Recorded::WithMass([1, 0]),
         "The same left-over force, taken at every degree of freedom by itself and relative to the forces that cancel there: \
          no soft corner of the model hides behind a stiff one.",
         "Look at the degree of freedom named: it is often held by very soft or very stiff elements.",
@@ -112,7 +193,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-03",
         Proof::Measured,
-        Recorded::Always(1),
+        Recorded::WithMass([1, 0]),
         "Modal masses are one and modes do not couple through the mass. If they did, one vibration would be counted twice. In a file of \
          MacNeal's method the mass is that of the modes and of rigid-body motion, and nothing else has any.",
         "Two modes named together describe the same motion: ask for a few modes more, so that their group is whole.",
@@ -120,7 +201,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-04",
         Proof::Measured,
-        Recorded::Always(1),
+        Recorded::WithMass([1, 0]),
         "Modes do not couple through the stiffness, so that modal stiffness is the square of the frequency and nothing else.",
         "As for M-03.",
     ),
@@ -161,7 +242,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-09",
         Proof::Estimated,
-        Recorded::Always(1),
+        Recorded::WithMass([1, 0]),
         "How far the digits of the input file let each frequency move. Thin and slender parts cancel large element \
          stiffnesses, so that a text file of few digits changes their frequencies although nothing in it looks wrong.",
         "Export the matrices with more digits, or in a binary format.",
@@ -169,7 +250,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-10",
         Proof::Estimated,
-        Recorded::Always(1),
+        Recorded::WithConstraintModes,
         "The static solutions under unit displacements of the interface are put back into the full stiffness, on all of \
          them or on random combinations of them.",
         "The stiffness of the interior is nearly singular: look for a mechanism or for a huge ratio of stiffnesses.",
@@ -177,7 +258,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-11",
         Proof::Measured,
-        Recorded::WithInterface,
+        Recorded::WithCarryingInterface,
         "Moving the interface as a rigid body carries the whole component along as a rigid body: the constraint modes add \
          up to rigid-body motion (24).",
         "The interface hardly holds the component against one rigid-body motion: add an interface node away from it.",
@@ -185,7 +266,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-12",
         Proof::Measured,
-        Recorded::Always(3),
+        Recorded::WithMass([3, 2]),
         "The reduced stiffness gives no force under rigid-body motion and has no other motion without force: in the \
          simulation the component neither sticks to the ground nor falls apart.",
         "Too many zero modes mean a mechanism in the model, too few mean grounding; see M-05.",
@@ -193,7 +274,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-13",
         Proof::Measured,
-        Recorded::Always(1),
+        Recorded::WithConstraintModes,
         "Interface coordinates and modal amplitudes do not couple in the reduced stiffness, as (29) demands; what is left of \
          that coupling is rounding.",
         "The static solutions are poor; see M-10.",
@@ -201,7 +282,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-14",
         Proof::Measured,
-        Recorded::Always(2),
+        Recorded::WithMass([2, 0]),
         "Each retained mode is put into the reduced equation, with the boundary it was computed for: the reduced model has \
          the same frequency and the same shape (34), (35).",
         "The superelement does not reproduce its own modes and is not to be used; see M-11 and M-13 for the cause.",
@@ -217,7 +298,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-16",
         Proof::Measured,
-        Recorded::Always(1),
+        Recorded::WithMass([1, 0]),
         "Mass, centre of mass and inertia of the reduced model are those of the full one, and those of a body: the same mass \
          in every direction. Where the job names the expected ones, they are compared as well.",
         "Reduced against full: see M-11. Against the job: units, a missing part, density, or coordinates in other units.",
@@ -227,7 +308,8 @@ pub const CATALOGUE: &[Entry] = &[
         Proof::Measured,
         Recorded::Sometimes,
         "Each interface is displaced while the others are held, in the full and in the reduced model. The reduced static \
-         stiffness must be that of the full model, whatever the number of modes.",
+         stiffness must be that of the full model, whatever the number of modes. Where the component is free to move while they \
+         are held, the flexibility of the interface is compared in its place.",
         "The static solutions are poor; see M-10.",
     ),
     line(
@@ -266,7 +348,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-22",
         Proof::Measured,
-        Recorded::Sometimes,
+        Recorded::WithAttachmentModes(2),
         "Rubin's residual attachment modes are put into the full matrices: nothing of them is rigid-body motion, and the forces that \
          keep them act on the interface alone, but for the inertia of the free body.",
         "Unit accelerations hardly deform the interior: use --method herting, which has its inertia-relief modes as coordinates.",
@@ -274,7 +356,7 @@ pub const CATALOGUE: &[Entry] = &[
     line(
         "M-23",
         Proof::Estimated,
-        Recorded::Always(2),
+        Recorded::WithMass([2, 1]),
         "How much the arithmetic amplifies rounding: by the interface that holds the rigid-body motions, by the stiffness of \
          the interior, by the reduced matrices.",
         "Spread the interface nodes, and avoid stiffness ratios that no real part has.",
@@ -341,5 +423,15 @@ pub const CATALOGUE: &[Entry] = &[
         "Static stiffness of each interface (M-17) and the static answer to each load that the job names (M-27), whichever is worse, \
          against what the scene accepts. There is no margin.",
         "Of a load: leave its `residual = true`. Of an interface: the static solutions are poor, see M-10.",
+    ),
+    line(
+        "M-32",
+        Proof::Estimated,
+        Recorded::Sometimes,
+        "What guards work that was left out. Where the constraint modes are not stored: random motions of the reduced model have the \
+         forces and the inertia that the full model has in them. Where the interface separates parts that were factored apart: no entry \
+         of K or M couples them.",
+        "The interior is too badly conditioned for its condensation: `run.constraint_modes = \"stored\"` keeps every column, `--no-skip` \
+         leaves nothing out.",
     ),
 ];

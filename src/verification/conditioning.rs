@@ -13,9 +13,13 @@ use crate::rigid::ILL_CONDITIONED;
 
 /// ‖DK_IID‖₁ ‖(DK_IID)⁻¹‖₁, the second norm estimated from below by a few solves (Hager 1984, Higham 1988).
 ///
-/// The estimate is within a factor of three of the truth in practice.
+/// The estimate is within a factor of three of the truth in practice. Where the interface leaves rigid-body motions free, there is no such
+/// inverse, and the condition of the answers at the interface counts.
 pub(super) fn internal_condition(evidence: &Evidence<'_>) -> f64 {
     const MAX_STEPS: usize = 5;
+    if let Some(attachment) = &evidence.constraint.attachment {
+        return attachment.condition;
+    }
     let norms = Equilibrated::of(evidence.partition.internal());
     let n = norms.scale.len();
     let solve = |x: &[f64]| -> Vec<f64> {
@@ -54,15 +58,7 @@ pub(super) fn internal_condition(evidence: &Evidence<'_>) -> f64 {
 
 /// The checks of M-23.
 pub(super) fn conditioning(evidence: &Evidence<'_>, internal: f64) -> Result<Vec<Check>> {
-    let mut checks = vec![
-        judged(
-            "interface reacts all rigid-body motions alike",
-            "s_max / s_min of U_B, rotations times the size of the component",
-            (1.0 / evidence.rank.singular_ratio, None),
-            1.0 / ILL_CONDITIONED,
-        ),
-        shown("condition of the internal stiffness", "κ₁(D K_II D), estimated", (internal, None)),
-    ];
+    let mut checks = of_interior(evidence, internal);
     // What MacNeal's method leaves without mass has none by its making; clients are told that M̂ is singular.
     let n_massless = evidence.reduction.mass_rank().map_or(0, |rank| evidence.reduction.n_reduced() - rank);
     let equation = match n_massless {
@@ -72,10 +68,38 @@ pub(super) fn conditioning(evidence: &Evidence<'_>, internal: f64) -> Result<Vec
     let mass = condition(evidence, evidence.reduction.mass.as_ref(), &mass_scales(evidence), n_massless)?;
     // At this condition a client that factors M̂ loses half its digits.
     checks.push(judged("condition of the reduced mass", equation, mass, 1e8));
+    checks.extend(of_reduced_stiffness(evidence)?);
+    Ok(checks)
+}
+
+/// The checks of M-23 that do not depend on a mass.
+pub(super) fn of_stiffness(evidence: &Evidence<'_>, internal: f64) -> Result<Vec<Check>> {
+    let mut checks = of_interior(evidence, internal);
+    checks.extend(of_reduced_stiffness(evidence)?);
+    Ok(checks)
+}
+
+fn of_interior(evidence: &Evidence<'_>, internal: f64) -> Vec<Check> {
+    if !evidence.is_held() {
+        // At this condition half the digits of the static modes are lost.
+        return vec![judged("condition of the attachment modes", "κ₂(D A_B D), unit diagonal", (internal, None), 1e8)];
+    }
+    vec![
+        judged(
+            "interface reacts all rigid-body motions alike",
+            "s_max / s_min of U_B, rotations times the size of the component",
+            (1.0 / evidence.rank.singular_ratio, None),
+            1.0 / ILL_CONDITIONED,
+        ),
+        shown("condition of the internal stiffness", "κ₁(D K_II D), estimated", (internal, None)),
+    ]
+}
+
+fn of_reduced_stiffness(evidence: &Evidence<'_>) -> Result<Vec<Check>> {
     let stiffness = evidence.reduction.stiffness.as_ref();
     let (stiffness, softest) = condition(evidence, stiffness, &coordinate_scales(evidence), evidence.rigid.count())?;
     let equation = "κ₂(D K̂ D) without its rigid-body modes, in the scales of the uncondensed stiffness";
-    checks.push(shown("condition of the reduced elastic stiffness", equation, (stiffness, softest)));
+    let mut checks = vec![shown("condition of the reduced elastic stiffness", equation, (stiffness, softest))];
     if evidence.basis.n_dynamic() > 0 {
         let equation = "min |R_jj| / ‖R_j‖ of Ψ_D = named columns · R⁻¹";
         checks.push(shown("least independent dynamic mode", equation, independence(evidence, Columns::All)));

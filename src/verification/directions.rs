@@ -65,15 +65,25 @@ impl Directions {
         }
     }
 
-    /// The unit translations alone; none without coordinates.
-    pub(super) fn translations(self) -> Option<Self> {
-        let chosen: Vec<usize> = (0..self.count()).filter(|j| self.names[*j].starts_with("translation")).collect();
-        (!chosen.is_empty()).then(|| Self {
-            names: chosen.iter().map(|j| self.names[*j].clone()).collect(),
-            motions: dense::columns(self.motions.as_ref(), &chosen),
-            are_held: chosen.iter().map(|j| self.are_held[*j]).collect(),
-            masses: chosen.iter().map(|j| self.masses[*j]).collect(),
-        })
+    /// The unit motions; none without coordinates.
+    pub(super) fn of_unit_motions(evidence: &Evidence<'_>) -> Option<Self> {
+        let found = evidence.partition.sites().map(|sites| Self::unit_motions(evidence.partition, &sites))?;
+        (found.count() > 0).then_some(found)
+    }
+
+    /// An acceleration along a unit motion in words: `acceleration along x`, `angular acceleration about z`.
+    pub(super) fn acceleration(&self, direction: usize) -> String {
+        let axis = self.names[direction].rsplit(' ').next().unwrap_or_default();
+        if self.turns(direction) {
+            format!("angular acceleration about {axis}")
+        } else {
+            format!("acceleration along {axis}")
+        }
+    }
+
+    /// Whether a direction is a unit rotation.
+    pub(super) fn turns(&self, direction: usize) -> bool {
+        self.names[direction].starts_with("rotation")
     }
 
     pub(super) fn count(&self) -> usize {

@@ -1,6 +1,6 @@
 //! What the checks look at, and how they name and scale it.
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
 use crate::basis::Basis;
 use crate::constraint::ConstraintModes;
@@ -11,9 +11,10 @@ use crate::factor::Cholesky;
 use crate::job::Expectation;
 use crate::modes::{Certificate, Retained};
 use crate::partition::Partition;
-use crate::reduction::Reduction;
+use crate::reduction::{Reduction, transpose_apply};
 use crate::rigid::{InterfaceRank, RigidBodyModes};
 use crate::rubin::Rubin;
+use crate::sparse::product;
 
 use super::enclosure::Enclosures;
 
@@ -26,18 +27,18 @@ pub(super) const NAMES: [&str; 6] =
 pub struct Evidence<'a> {
     /// The partitioned matrices.
     pub partition: &'a Partition,
-    /// The factor of K_II.
+    /// The factor of K_II; of (K − σM)_II below the spectrum where the interface leaves rigid-body motions free.
     pub factor: &'a Cholesky<'a>,
     /// The rigid-body modes.
     pub rigid: &'a RigidBodyModes,
     /// How well the interface reacts the rigid-body modes.
     pub rank: InterfaceRank,
-    /// The constraint modes.
-    pub constraint: &'a ConstraintModes,
+    /// The constraint modes, or Rubin's static modes where the interface leaves rigid-body motions free.
+    pub constraint: &'a ConstraintModes<'a>,
     /// The retained modes.
     pub retained: &'a Retained,
     /// The basis.
-    pub basis: &'a Basis,
+    pub basis: &'a Basis<'a>,
     /// The reduced matrices.
     pub reduction: &'a Reduction,
     /// K_II⁻¹ f_I of each load of the job, n_I × n_l, where they were solved.
@@ -55,6 +56,24 @@ pub struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
+    /// Whether the interface at rest leaves nothing free: K_II is regular, and its answers are those of the factor.
+    pub(super) fn is_held(&self) -> bool {
+        self.constraint.attachment.is_none()
+    }
+
+    /// Û in a basis that is orthonormal in M̂, r × n_r.
+    pub(super) fn reduced_rigid(&self) -> Mat<f64> {
+        let (_, mass, motions) = self.reduction.pencil();
+        dense::orthonormal(motions, mass)
+    }
+
+    /// Rigid-body motions, n' × k, in reduced coordinates, r × k.
+    pub(super) fn rigid_coordinates(&self, motions: MatRef<'_, f64>) -> Mat<f64> {
+        let q = self.reduced_rigid();
+        let momenta = transpose_apply(self.basis, product(&self.partition.mass, motions).as_ref());
+        dense::product(q.as_ref(), dense::gram(q.as_ref(), momenta.as_ref()).as_ref())
+    }
+
     /// Zero modes of the boundary that the retained modes were computed under.
     pub(super) fn n_zero(&self) -> usize {
         self.rigid.under(self.retained.boundary).map_or(0, RigidBodyModes::count)

@@ -6,8 +6,8 @@ use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
 use super::rigid_body::{self, MassRoutes};
 use super::{
-    attachment, completeness, conditioning, damping, eigenpairs, enclosed, mass, named_loads, reduced, rigid_motion,
-    solves, spectrum,
+    attached, attachment, completeness, conditioning, damping, eigenpairs, enclosed, mass, named_loads, probes,
+    reduced, rigid_motion, solves, spectrum,
 };
 use crate::error::Result;
 
@@ -69,14 +69,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(completeness::count(evidence));
     checks.extend(enclosed::checks(evidence));
     checks.push(eigenpairs::data_precision(evidence));
-    checks.push(solves::static_solves(evidence)?);
-    if evidence.partition.n_interface() > 0 {
-        checks.push(rigid_motion::carried_by_interface(evidence));
-    }
-    checks.push(rigid_motion::null_space(evidence));
-    checks.push(rigid_motion::force(evidence, &spectrum)?);
-    checks.push(rigid_motion::zero_modes(evidence, &spectrum));
-    checks.push(reduced::block_coupling(evidence, &terms));
+    checks.extend(of_statics(evidence, &spectrum, &terms)?);
     checks.push(reduced::pair_residual(evidence, of_digits));
     checks.push(reduced::frequency_difference(evidence, &spectrum));
     checks.push(mass::preserved(evidence));
@@ -87,15 +80,18 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(mass::of_held_body(evidence.partition));
     checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));
     checks.extend(mass::expected(evidence));
+    checks.extend(attached::flexibility(evidence));
     checks.extend(loads::accelerations(evidence, condition));
     checks.extend(rigid_body.effective_mass.as_ref().and_then(loads::effective_mass));
     checks.extend(attachment::checks(evidence)?);
+    checks.extend(attached::checks(evidence));
     checks.extend(conditioning::conditioning(evidence, condition)?);
     checks.push(reduced::symmetry(evidence, &terms));
     checks.push(reduced::definiteness(evidence, &spectrum));
     let load_lacking = named_loads::lacking(evidence);
     checks.extend(named_loads::checks(evidence, load_lacking.as_deref(), condition));
     checks.extend(damping::of_reduction(evidence, &rigid_motion::Disturbance::of(evidence, &spectrum)?)?);
+    checks.extend(probes::stiffness(evidence).into_iter().chain(probes::mass(evidence)).chain(probes::parts(evidence)));
     Ok(Findings {
         checks,
         rigid_body,
@@ -103,4 +99,48 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         elastic: spectrum.elastic().to_vec(),
         load_lacking,
     })
+}
+
+/// M-10 to M-13: static solutions, and rigid-body motion in them; those of constraint modes where there are any.
+fn of_statics(evidence: &Evidence<'_>, spectrum: &spectrum::Spectrum, terms: &reduced::Terms) -> Result<Vec<Check>> {
+    let mut checks = Vec::new();
+    if evidence.is_held() {
+        checks.push(solves::static_solves(evidence)?);
+    }
+    if evidence.partition.n_interface() > 0 && evidence.is_held() {
+        checks.push(rigid_motion::carried_by_interface(evidence));
+    }
+    checks.push(rigid_motion::null_space(evidence));
+    checks.push(rigid_motion::force(evidence, spectrum)?);
+    checks.push(rigid_motion::zero_modes(evidence, spectrum));
+    if evidence.is_held() {
+        checks.push(reduced::block_coupling(evidence, terms));
+    }
+    Ok(checks)
+}
+
+/// Makes the checks that statics alone has: what they measure does not depend on a mass.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub fn verify_statics(evidence: &Evidence<'_>) -> Result<Findings> {
+    let condition = conditioning::internal_condition(evidence);
+    let terms = reduced::Terms::of_stiffness(evidence);
+    let mut checks = vec![rigid_motion::residual(evidence, &[]), solves::static_solves(evidence)?];
+    if evidence.partition.n_interface() > 0 {
+        checks.push(rigid_motion::carried_by_interface(evidence));
+    }
+    checks.push(rigid_motion::null_space(evidence));
+    let lifted = spectrum::lifted_eigenvalues(evidence)?;
+    checks.push(rigid_motion::other_zero_modes(evidence, &lifted));
+    checks.push(reduced::block_coupling(evidence, &terms));
+    checks.extend(conditioning::of_stiffness(evidence, condition)?);
+    checks.push(reduced::symmetry(evidence, &terms));
+    checks.push(reduced::definite_stiffness(evidence, &lifted));
+    let load_lacking = named_loads::lacking(evidence);
+    checks.extend(named_loads::checks(evidence, load_lacking.as_deref(), condition));
+    checks.extend(probes::stiffness(evidence));
+    checks.extend(probes::parts(evidence));
+    let rigid_body = RigidBody { routes: None, eigenvalues: Vec::new(), grounding: Vec::new(), effective_mass: None };
+    Ok(Findings { checks, rigid_body, first_elastic: None, elastic: Vec::new(), load_lacking })
 }

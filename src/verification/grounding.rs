@@ -35,7 +35,8 @@ pub enum Restraint {
     Free,
     /// A weak spring holds what should be free.
     Grounded,
-    /// A support holds it, or it is not a motion of the component as a whole.
+    /// A support holds it, it is not a motion of the component as a whole, or it turns a preloaded component, whose internal forces cost
+    /// what has been confirmed of them.
     Held,
 }
 
@@ -89,6 +90,8 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
         let least = if all_free { noise.max(NEARLY_FREE) } else { noise };
         let restraint = if energy_ratio <= least {
             Restraint::Free
+        } else if partition.fit.is_preloaded() && directions.turns(j) {
+            Restraint::Held
         } else if all_free || energy_ratio < HELD_ABOVE && moves_as_a_whole(dense::dot(u, force) / directions.masses[j])
         {
             Restraint::Grounded

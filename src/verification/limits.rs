@@ -39,6 +39,8 @@ const NOT_PRESERVED: f64 = 1e-3;
 pub(crate) const LARGEST_EXCUSE: f64 = 1e-3;
 /// Relative difference of a frequency that no digits of the data excuse.
 const OPEN: f64 = 0.1;
+/// A coupling of two modes of this size moves their frequencies by its square: no more rounding than this is excused.
+pub(crate) const HARMLESS_COUPLING: f64 = 1e-6;
 
 /// A known eigenvalue with its relative error bar.
 #[derive(Clone, Copy, Debug)]

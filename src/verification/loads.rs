@@ -4,6 +4,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 
 use super::check::{Check, Limits};
+use super::conditioning::{Columns, independence};
 use super::directions::Directions;
 use super::evidence::{Evidence, data_noise};
 use crate::basis::DynamicCoordinate;
@@ -22,12 +23,15 @@ pub struct EffectiveMasses {
     pub shares: Vec<Vec<f64>>,
 }
 
-/// M-18, where the translations are known.
+/// M-18, along the unit translations and about the middle of the mass, where these are known.
 pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<Check> {
     const FAIL: f64 = 1e-6;
+    if !evidence.is_held() {
+        return None;
+    }
     let partition = evidence.partition;
     let n_i = partition.n_internal;
-    let directions = Directions::of(evidence).translations()?;
+    let directions = Directions::of_unit_motions(evidence)?;
     let inertia = product(&partition.mass, directions.motions.as_ref());
     let loads = inertia.as_ref().subrows(0, n_i);
     let along = dense::gram(evidence.rigid.mass_orthonormal.as_ref(), directions.motions.as_ref());
@@ -44,14 +48,16 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
         let share = if missed == 0.0 { 0.0 } else { missed / whole };
         left = left.max(root_of_energy(of_beyond, beyond.as_ref(), j) / whole);
         if dense::worse(share, worst.0) {
-            worst =
-                (share, Some(format!("acceleration along {}", directions.names[j].trim_start_matches("translation "))));
+            worst = (share, Some(directions.acceleration(j)));
         }
     }
     let limits = if is_exact(evidence, &directions, along.as_ref()) {
         // The columns answer the part of an acceleration that is a rigid-body motion. Of the rest, which rounding leaves where soft motions
         // cannot be told from free ones, they miss no more energy than it has: they answer best of all their combinations.
-        let arithmetic = f64::EPSILON * condition + left;
+        // A column that adds little to those before it is put together from large parts of little.
+        let (least, _) = independence(evidence, Columns::BeforeResidualVectors);
+        let of_parts = evidence.basis.n_dynamic() as f64 * f64::EPSILON / least;
+        let arithmetic = f64::EPSILON * condition + left + of_parts;
         // The condition is that of the matrix, not of this solve; a thousandth of a deflection makes no difference.
         Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(1e-3, 1e-2)
     } else {
@@ -125,7 +131,7 @@ fn is_exact(evidence: &Evidence<'_>, directions: &Directions, along: MatRef<'_, 
 /// total ΓᵀM_II⁻¹Γ.
 pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<EffectiveMasses>> {
     // With the interface held a mass without that of the static answers has shares that add up to more than the whole.
-    if evidence.reduction.modal_mass.is_some() {
+    if evidence.reduction.modal_mass.is_some() || !evidence.is_held() {
         return Ok(None);
     }
     let partition = evidence.partition;

@@ -3,6 +3,7 @@
 //! Verification never changes a result. It measures, names the equation and compares with a limit of the form
 //! max(engineering, arithmetic, data). Each check says which of the three was active. Identifiers of checks are stable.
 
+mod attached;
 mod attachment;
 pub mod catalogue;
 pub mod check;
@@ -23,6 +24,7 @@ mod mass;
 mod named_loads;
 mod penalty;
 pub mod preservation;
+mod probes;
 mod reduced;
 mod residual;
 mod rigid_body;
@@ -32,7 +34,7 @@ mod spectrum;
 
 pub use enclosure::{CountProof, Enclosures, enclosures, enclosures_where_asked};
 pub use evidence::Evidence;
-pub use findings::{Findings, RigidBody, verify};
+pub use findings::{Findings, RigidBody, verify, verify_statics};
 pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
 pub(crate) use mass::{comparable, expected_by_weight, not_comparable, of_a_body, of_held_body};

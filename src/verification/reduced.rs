@@ -1,11 +1,13 @@
 //! The reduced pencil: M-13, M-14, M-25.
 
+use std::ops::Range;
+
 use faer::MatRef;
 
 use super::check::{Check, Limits};
 use super::conditioning::{Columns, independence};
 use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
-use super::limits::{self, Judged};
+use super::limits::{self, HARMLESS_COUPLING, Judged};
 use super::rigid_motion::energy_limits;
 use super::spectrum::{Spectrum, zero_level};
 use crate::dense::{self, NOISE_FACTOR};
@@ -19,23 +21,31 @@ pub(super) struct Terms {
     interface: f64,
     /// max (|Ψ|ᵀ|K||Ψ|)_jj / K̂_jj of the dynamic columns; without an interface over the largest K̂_jj, which M-13 divides by there.
     dynamic: f64,
-    /// The largest of all, relative to the largest entry of K̂.
-    largest: f64,
-    /// max (|Ψ|ᵀ|M||Ψ|)_ii relative to the largest entry of M̂: modes that M nearly lets pass are of large terms.
+    /// max (|Ψ|ᵀ|M||Ψ|)_ii / M̂_ii: modes that M nearly lets pass are of large terms.
     mass: f64,
 }
 
 impl Terms {
     pub(super) fn of(evidence: &Evidence<'_>) -> Self {
+        let internal_mass = evidence.partition.internal().mass;
+        let basis = evidence.basis;
+        let of_statics =
+            |columns: Range<usize>| terms_of(internal_mass, basis.constraint_modes.columns(columns).as_ref());
+        // The mass of the interface itself adds to these, and leaving it out excuses less.
+        let terms = panels(evidence.partition.n_interface()).flat_map(of_statics);
+        let terms = terms.chain(terms_of(internal_mass, basis.dynamic_modes.as_ref()));
+        let mass = terms.zip(dense::diagonal(evidence.reduction.mass.as_ref()));
+        let shares = mass.filter(|(_, inertia)| *inertia > 0.0).map(|(terms, inertia)| terms / inertia);
+        Self { mass: shares.fold(1.0, f64::max), ..Self::of_stiffness(evidence) }
+    }
+
+    /// The terms of K̂ alone.
+    pub(super) fn of_stiffness(evidence: &Evidence<'_>) -> Self {
         let (partition, k) = (evidence.partition, &evidence.reduction.stiffness);
         let n_b = partition.n_interface();
-        let (mut dynamic, mut largest) = (1.0f64, 0.0f64);
+        let mut dynamic = 1.0f64;
         // Rigid-body modes have no energy of their own.
         let highest = (n_b == 0).then(|| (0..k.nrows()).fold(0.0f64, |max, j| max.max(k[(j, j)])));
-        for i in 0..n_b {
-            let uncondensed = partition.stiffness.get(partition.n_internal + i, partition.n_internal + i);
-            largest = largest.max(evidence.constraint.cancellation * uncondensed.copied().unwrap_or(0.0));
-        }
         for columns in panels(evidence.basis.n_dynamic()) {
             let panel = evidence.basis.dynamic_modes.as_ref().get(.., columns.clone());
             for (column, terms) in columns.zip(absolute_energy(partition.internal().stiffness, panel)) {
@@ -43,27 +53,15 @@ impl Terms {
                 let energy = highest.unwrap_or_else(|| k[(at, at)].abs());
                 // Where there is no energy at all, M-13 divides by the terms themselves.
                 dynamic = if energy > 0.0 { dynamic.max(terms / energy) } else { dynamic };
-                largest = largest.max(terms);
             }
         }
-        let size = k.norm_max();
-        let largest = if size > 0.0 { largest / size } else { 1.0 };
-        let (psi_s, psi_d) = (evidence.basis.constraint_modes.as_ref(), evidence.basis.dynamic_modes.as_ref());
-        // The mass of the interface itself adds to these, and leaving it out excuses less.
-        let terms = [psi_s, psi_d].map(|columns| largest_terms(partition.internal().mass, columns));
-        let mass = &evidence.reduction.mass;
-        Self {
-            interface: if n_b == 0 { dynamic } else { evidence.constraint.cancellation },
-            dynamic,
-            largest,
-            mass: terms[0].max(terms[1]) / mass.norm_max().max(f64::MIN_POSITIVE),
-        }
+        Self { interface: if n_b == 0 { dynamic } else { evidence.constraint.cancellation }, dynamic, mass: 1.0 }
     }
 }
 
-/// max |x|ᵀ|A||x| of the columns: a product xᵀAy is rounded by ε times the root of that of x and of y.
-fn largest_terms(matrix: Leading<'_>, columns: MatRef<'_, f64>) -> f64 {
-    panels(columns.ncols()).flat_map(|panel| absolute_energy(matrix, columns.get(.., panel))).fold(0.0, f64::max)
+/// |x|ᵀ|A||x| of the columns: a product xᵀAy is rounded by ε times the root of that of x and of y.
+fn terms_of(matrix: Leading<'_>, columns: MatRef<'_, f64>) -> Vec<f64> {
+    panels(columns.ncols()).flat_map(|panel| absolute_energy(matrix, columns.get(.., panel))).collect()
 }
 
 /// M-13, equation (29).
@@ -131,9 +129,6 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>, of_digits: f64) -> Check {
     }
 }
 
-/// A coupling of two modes of this size moves their frequencies by its square: no more rounding than this is excused.
-const HARMLESS_COUPLING: f64 = 1e-6;
-
 /// What rounding of K̂ and of the modes leaves of x_iᵀKx_j, in the scales of the coordinates, as in M-04: the row of a mode in the
 /// residual of another one is nothing else. Its terms are √(c_i c_j) times the energies.
 fn coupling_rounding(modes: &Modes) -> f64 {
@@ -198,16 +193,30 @@ pub(super) fn symmetry(evidence: &Evidence<'_>, terms: &Terms) -> Check {
     const FAIL: f64 = 1e-6;
     let measured = evidence.reduction.measured;
     // Both triangles are rounded by ε times the terms of an entry, (|Ψ|ᵀ|A||Ψ|)_ij ≤ √(t_i t_j) with t those of the diagonal.
-    let arithmetic = NOISE_FACTOR * f64::EPSILON * terms.largest.max(terms.mass);
+    let arithmetic = NOISE_FACTOR * f64::EPSILON * terms.interface.max(terms.dynamic).max(terms.mass);
     // Capped as the level of zero is.
     let limits = Limits { engineering: 1e-12, arithmetic, data: 0.0 }.capped(1e-4, 0.0);
     Check {
         id: "M-25",
         name: "reduced matrices are symmetric",
-        equation: "max |K̂ − K̂ᵀ|/|K̂|, |M̂ − M̂ᵀ|/|M̂| of the projections, which are then made symmetric to the bit",
+        equation: "max |K̂ − K̂ᵀ|_ij/√(s_i s_j), |M̂ − M̂ᵀ|_ij/√(M̂_ii M̂_jj) of the projections, s of K_BB and K̂_ηη",
         value: measured.stiffness_asymmetry.max(measured.mass_asymmetry),
         limits,
         fail_above: limits.value().max(FAIL),
+        worst: None,
+    }
+}
+
+/// M-25, definiteness of K̂ alone, by its eigenvalues in the scales of its coordinates with the rigid-body modes lifted.
+pub(super) fn definite_stiffness(evidence: &Evidence<'_>, lifted: &[f64]) -> Check {
+    let limits = zero_level(evidence);
+    Check {
+        id: "M-25",
+        name: "reduced stiffness is not negative",
+        equation: "max(0, −λ_min(K̂)) in the scales of the uncondensed stiffness",
+        value: (-lifted.first().copied().unwrap_or(0.0)).max(0.0),
+        limits,
+        fail_above: limits.value(),
         worst: None,
     }
 }

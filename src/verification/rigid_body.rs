@@ -29,7 +29,7 @@ pub struct MassRoutes {
 
 /// The routes, for one free body with coordinates.
 pub(super) fn mass_routes(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Option<MassRoutes>> {
-    if !evidence.rigid.is_classical || evidence.partition.n_interface() == 0 {
+    if !evidence.rigid.is_classical || evidence.partition.n_interface() == 0 || !evidence.is_held() {
         return Ok(None);
     }
     let reduction = evidence.reduction;

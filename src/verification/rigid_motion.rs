@@ -98,7 +98,7 @@ fn strained(grounding: &[Grounding], measure: impl Fn(&Grounding) -> f64) -> Opt
 /// M-11, equation (24), measured on the basis.
 pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
     let motions = evidence.rigid.orthonormal.as_ref();
-    let found = rigid_error(evidence.partition, evidence.basis.constraint_modes.as_ref(), motions);
+    let found = rigid_error(evidence.partition, &evidence.basis.constraint_modes, motions);
     let worst = Worst { value: found.value, at: found.at };
     let raw = evidence.constraint.raw_rigid_error;
     Check {
@@ -170,6 +170,21 @@ impl Disturbance {
         };
         let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
         Ok(Self { first, noise, share_of_data: share_of_data(evidence.partition) })
+    }
+}
+
+/// M-12, zero eigenvalues of K̂ alone, in the scales of its coordinates and with its rigid-body modes lifted.
+pub(super) fn other_zero_modes(evidence: &Evidence<'_>, lifted: &[f64]) -> Check {
+    let level = zero_level(evidence).value();
+    let n_others = lifted.iter().filter(|value| value.abs() <= level).count();
+    Check {
+        id: "M-12",
+        name: "reduced stiffness has no other zero modes",
+        equation: "eigenvalues of K̂ beyond n_r that are rounding, in the scales of the uncondensed stiffness",
+        value: n_others.saturating_sub(evidence.rigid.n_grey) as f64,
+        limits: Limits::default(),
+        fail_above: 0.0,
+        worst: Some(format!("{n_others} beyond {} rigid-body modes", evidence.rigid.count())),
     }
 }
 

@@ -49,7 +49,7 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Result<Check> {
         value: worst.value,
         limits,
         fail_above: limits.value().max(FAIL),
-        worst: worst.name(evidence, column_is(n_b, "constraint mode")),
+        worst: worst.name(evidence, column_is(evidence, "constraint mode")),
     })
 }
 
@@ -64,8 +64,13 @@ pub(super) struct Statics<'a> {
 }
 
 /// What a column of the combinations is called: `single` where each dof is looked at.
-pub(super) fn column_is(n_b: usize, single: &'static str) -> &'static str {
-    if n_b <= MAX_SINGLE_COLUMNS { single } else { "random combination" }
+pub(super) fn column_is(evidence: &Evidence<'_>, single: &'static str) -> &'static str {
+    if is_by_columns(evidence) { single } else { "random combination" }
+}
+
+/// Whether each column is looked at: where there are few, and each does not take a solve.
+fn is_by_columns(evidence: &Evidence<'_>) -> bool {
+    evidence.partition.n_interface() <= MAX_SINGLE_COLUMNS && evidence.constraint.modes.is_stored()
 }
 
 /// The motions of the interface whose static solutions are looked at.
@@ -74,7 +79,7 @@ pub(super) fn column_is(n_b: usize, single: &'static str) -> &'static str {
 /// A dense eigenproblem that does not converge.
 pub(super) fn statics<'a>(evidence: &Evidence<'a>, rows: &Rows<'_>) -> Result<Statics<'a>> {
     let n_b = evidence.partition.n_interface();
-    let combinations = match n_b <= MAX_SINGLE_COLUMNS {
+    let combinations = match is_by_columns(evidence) {
         true => Mat::identity(n_b, n_b),
         false => gaussian(n_b, &rows.norms.scale[evidence.partition.n_internal..]),
     };
@@ -105,8 +110,7 @@ fn forces_of_correction<'a>(evidence: &Evidence<'a>) -> Result<(Mat<f64>, MatRef
 pub(super) fn constraint_panel(evidence: &Evidence<'_>, g: MatRef<'_, f64>) -> Mat<f64> {
     let (n_i, n_b) = (evidence.partition.n_internal, evidence.partition.n_interface());
     let mut panel = Mat::zeros(n_i + n_b, g.ncols());
-    let psi_s = evidence.basis.constraint_modes.as_ref();
-    dense::add_product(panel.as_mut().subrows_mut(0, n_i), 1.0, psi_s, g);
+    evidence.basis.constraint_modes.add_followed(panel.as_mut().subrows_mut(0, n_i), 1.0, g);
     panel.as_mut().subrows_mut(n_i, n_b).copy_from(g);
     panel
 }

@@ -176,7 +176,7 @@ pub(in crate::verification) fn zero_level(evidence: &Evidence<'_>) -> Limits {
 }
 
 /// Eigenvalues of K̂ in the scales of its coordinates, ascending, with its rigid-body modes lifted to order one.
-fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<Vec<f64>> {
+pub(super) fn lifted_eigenvalues(evidence: &Evidence<'_>) -> Result<Vec<f64>> {
     let (k, u) = (&evidence.reduction.stiffness, &evidence.reduction.rigid_body_modes);
     let scales = coordinate_scales(evidence);
     let mut lifted = scaled_by(k.as_ref(), &scales);

@@ -8,6 +8,7 @@ use supel::job::{InterfaceJob, Method, ModeSelection, ReductionJob};
 use supel::model::Model;
 use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
+use supel::plan::Relief;
 use supel::random::SEED;
 use supel::reduction::Reduction;
 use supel::rigid;
@@ -30,12 +31,15 @@ pub fn with_evidence<T>(
     let analysis = partition.analysis().expect("memory");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("definite");
     let constraint = constraint_modes(&partition, &factor, &rigid);
-    let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
+    let component = Component::new(&partition, &analysis, &factor, &rigid, Some(&constraint));
     let job = ReductionJob::new(method, ModeSelection::Count { count });
     let search = Search::new(component, &job).expect("a stable component");
     let retained = Retained { modes: search.lowest(SEED).expect("modes"), boundary: search.problem.boundary };
-    let basis =
-        Basis::new(&constraint, &supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
+    let basis = Basis::new(
+        &constraint,
+        &supel::basis::retained_columns(component, &constraint, Relief::of_reduction(&job), &retained),
+        partition.internal().mass,
+    );
     let reduction = Reduction::new(&partition, &basis, &rigid);
     look(Evidence {
         partition: &partition,

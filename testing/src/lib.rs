@@ -13,3 +13,4 @@ pub mod evidence;
 pub mod pencil;
 pub mod place;
 pub mod sample;
+pub mod schema;

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use serde_json::Value;
 use supel::cli::{ExitCode, Terminal, run};
+use supel::cost_forecast::{NOMINAL, Rates};
 use supel_models::{Material, Model, brick, write};
 use supel_runtime::Superelement;
 
@@ -30,11 +31,20 @@ pub fn supel(args: &[&str]) -> Ended {
     let args = std::iter::once("supel").chain(args.iter().copied()).map(OsString::from);
     let code = run(
         args,
-        supel::cli::Pipeline { reduce: supel::reduce, verify: supel::verify },
+        supel::cli::Pipeline { rates: nominal_rates, ..supel::PIPELINE },
         &mut Terminal::plain(&mut out, &mut err),
     );
     let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
     Ended { code, out: text(out), err: text(err) }
+}
+
+/// How fast a machine is that no test has to be measured on.
+fn nominal_rates(
+    _: usize,
+    _: supel::cli::Calibration,
+    _: &mut dyn supel::report::Observer,
+) -> supel::error::Result<Rates> {
+    Ok(NOMINAL)
 }
 
 /// A folder of its own.
@@ -136,6 +146,63 @@ impl Place {
 
 pub fn steel_brick() -> Model {
     brick([4, 2, 2], [1.0, 0.31, 0.23], &Material::STEEL_SI)
+}
+
+/// A mesh as an XDMF document: points, and topologies by their names with the cells of each.
+pub fn xdmf(points: &[[f64; 3]], topologies: &[(&str, Vec<Vec<usize>>)]) -> String {
+    let item = |values: Vec<String>| {
+        format!("<DataItem Dimensions=\"{}\" Format=\"XML\">{}</DataItem>", values.len(), values.join(" "))
+    };
+    let cells = topologies.iter().map(|(kind, cells)| {
+        let numbers = item(cells.iter().flatten().map(usize::to_string).collect());
+        format!("<Topology TopologyType=\"{kind}\">{numbers}</Topology>")
+    });
+    let (cells, places) = (cells.collect::<String>(), item(points.iter().flatten().map(f64::to_string).collect()));
+    format!("<Xdmf><Domain><Grid>{cells}<Geometry GeometryType=\"XYZ\">{places}</Geometry></Grid></Domain></Xdmf>")
+}
+
+/// The eight bricks of the steel block, each of eight nodes.
+pub fn bricks_of_eight() -> (&'static str, Vec<Vec<usize>>) {
+    let mesh = supel_models::HexMesh::structured([4, 2, 2], |point| point, |_| true);
+    let cell = |corners: &[u32; 8]| corners.iter().map(|corner| *corner as usize).collect();
+    ("Hexahedron", mesh.elements.iter().map(cell).collect())
+}
+
+/// The nodes of the steel block as two bricks of 27 nodes, in the order of VTK.
+pub fn bricks_of_27() -> (&'static str, Vec<Vec<usize>>) {
+    /// Places in a brick, in halves of it: corners, edges below, above and upright, and the six faces, as far as supel looks at them.
+    const PLACES: [[usize; 3]; 27] = [
+        [0, 0, 0],
+        [2, 0, 0],
+        [2, 2, 0],
+        [0, 2, 0],
+        [0, 0, 2],
+        [2, 0, 2],
+        [2, 2, 2],
+        [0, 2, 2],
+        [1, 0, 0],
+        [2, 1, 0],
+        [1, 2, 0],
+        [0, 1, 0],
+        [1, 0, 2],
+        [2, 1, 2],
+        [1, 2, 2],
+        [0, 1, 2],
+        [0, 0, 1],
+        [2, 0, 1],
+        [2, 2, 1],
+        [0, 2, 1],
+        [0, 1, 1],
+        [2, 1, 1],
+        [1, 0, 1],
+        [1, 2, 1],
+        [1, 1, 0],
+        [1, 1, 2],
+        [1, 1, 1],
+    ];
+    let node = |first: usize, [i, j, k]: [usize; 3]| first + i + 5 * (j + 3 * k);
+    let cell = |first: usize| PLACES.iter().map(|place| node(first, *place)).collect();
+    ("Hexahedron_27", vec![cell(0), cell(2)])
 }
 
 /// The natural frequencies a superelement names, in Hz.

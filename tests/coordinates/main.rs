@@ -4,6 +4,7 @@
 //! program can see from K, M, dof map and coordinates stands there too, and in `docs/what-the-report-proves.md`.
 
 mod faults;
+mod frames;
 mod mass;
 mod sound;
 mod table;

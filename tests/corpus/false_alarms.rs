@@ -104,7 +104,7 @@ fn examine(pairs: &Path, pair: &Pair, method: &str) -> Vec<String> {
     let (job, place) = (model_job(pairs, pair), Place::new());
     let (output, interface) = (place.text("x.supel"), format!("auto=rows:{rows}"));
     let text = |path: &Path| path.display().to_string();
-    let (stiffness, mass) = (text(&job.stiffness), text(&job.mass));
+    let (stiffness, mass) = (text(&job.stiffness), text(job.mass.as_deref().expect("a mass")));
     let mut args: Vec<&str> = vec!["reduce", "--stiffness", &stiffness, "--mass", &mass, "--interface", &interface];
     args.extend(["--method", method, "--modes", N_MODES, "--output", &output, "--allow-unverified"]);
     let tables = [("--dofs", job.dofs.as_deref().map(text)), ("--nodes", job.nodes.as_deref().map(text))];

@@ -40,7 +40,7 @@ fn model_job(pairs: &Path, pair: &Pair) -> ModelJob {
     };
     ModelJob {
         stiffness: matrix(pair.files[0]),
-        mass: matrix(pair.files[1]),
+        mass: Some(matrix(pair.files[1])),
         dofs: next_to_it(&["model.dof", "dof.csv"]),
         nodes: next_to_it(&["nodes.csv"]),
         ..ModelJob::default()

@@ -179,7 +179,7 @@ fn names_that_are_not_utf8_are_refused_before_anything_is_read() {
     let run = |args: Vec<OsString>| {
         let (mut out, mut err) = (Vec::new(), Vec::new());
         let args = std::iter::once("supel".into()).chain(args);
-        let pipeline = supel::cli::Pipeline { reduce: supel::reduce, verify: supel::verify };
+        let pipeline = supel::PIPELINE;
         let code = supel::cli::run(args, pipeline, &mut supel::cli::Terminal::plain(&mut out, &mut err));
         let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
         Ended { code, out: text(out), err: text(err) }

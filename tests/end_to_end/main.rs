@@ -14,6 +14,7 @@ mod penalties;
 mod recovery;
 mod reference_node;
 mod results;
+mod rubin_free;
 #[cfg(feature = "hdf5")]
 mod same_bytes;
 mod told;

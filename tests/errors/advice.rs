@@ -8,10 +8,11 @@ use supel::error::Error;
 
 use crate::place::supel;
 
-const COMMANDS: [&str; 3] = ["reduce", "verify", "inspect"];
+const COMMANDS: [&str; 4] = ["reduce", "verify", "inspect", "init"];
 
 /// Errors that only one command meets, whose messages name its flags as they are.
-const OF_ONE: [(&str, &str); 3] = [("MissingFlags", "reduce"), ("FlagText", "reduce"), ("OtherVersion", "verify")];
+const OF_ONE: [(&str, &str); 4] =
+    [("MissingFlags", "reduce"), ("FlagText", "reduce"), ("OtherVersion", "verify"), ("OutputExists", "init")];
 
 /// The flags in a text, each with the word before it.
 fn flags(text: &str) -> Vec<(String, String)> {
@@ -67,7 +68,7 @@ fn advice() -> Vec<Advice> {
 /// `reduce`. All models are met by `reduce` and `verify`, and files by `inspect` too.
 #[test]
 fn every_flag_that_is_advised_exists() {
-    let [reduce, verify, inspect] = COMMANDS.map(known);
+    let [reduce, verify, inspect, init] = COMMANDS.map(known);
     assert!(reduce.contains("--symmetric") && verify.contains("--reproduce") && inspect.contains("--job"));
     let (mut n_flags, mut wrong) = (0, Vec::new());
     for Advice { variant, page, message } in advice() {
@@ -77,6 +78,7 @@ fn every_flag_that_is_advised_exists() {
                 "reduce" => reduce.contains(&flag),
                 "verify" => verify.contains(&flag),
                 "inspect" => inspect.contains(&flag),
+                "init" => init.contains(&flag),
                 // A flag of cargo.
                 "with" if flag == "--features" => true,
                 _ => reduce.contains(&flag) && verify.contains(&flag),

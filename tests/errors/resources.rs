@@ -10,6 +10,7 @@ use supel::memory_forecast::Resources;
 use supel::memory_forecast::slices_within_memory;
 use supel::model::Model;
 use supel::partition::Partition;
+use supel::plan::Plan;
 use supel::sparse::Pencil;
 use supel::sparse::SparseMatrix;
 use supel_models::{Ends, Material, brick, spring};
@@ -52,7 +53,8 @@ write     = { superelement = "x.supel" }
     let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
     let resources = Resources { memory_bytes: Some(16 << 30) };
     let in_double = (Storage::Double, None);
-    let error = slices_within_memory(&analysis, &partition, &job, resources, in_double).expect_err("more than 16 GiB");
+    let error = slices_within_memory(&analysis, &partition, &Plan::of(&job), resources, in_double)
+        .expect_err("more than 16 GiB");
     assert!(matches!(error, Error::MemoryForecast { factors, .. } if factors >= 8 * exact as u64), "{error}");
     let said = error.to_string();
     assert!(said.contains("– largest first: factors ") && said.ends_with("which needs fewer factors"), "{said}");
@@ -121,7 +123,7 @@ write     = { superelement = "x.supel" }
     let analysis = partition.analysis().expect("an analysis");
     let needed = |partition: &Partition, storage| {
         let resources = Resources { memory_bytes: Some(1) };
-        match slices_within_memory(&analysis, partition, &job, resources, (storage, None)) {
+        match slices_within_memory(&analysis, partition, &Plan::of(&job), resources, (storage, None)) {
             Err(Error::MemoryForecast { factors, matrices, vectors, in_single: None, .. }) => {
                 factors + matrices + vectors
             }
@@ -150,7 +152,9 @@ fn slices_at_the_same_time_are_those_that_memory_holds() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
     let at_once = |memory_bytes| {
         let resources = Resources { memory_bytes };
-        pool.install(|| slices_within_memory(&analysis, &partition, &job, resources, (Storage::Double, Some(800))))
+        pool.install(|| {
+            slices_within_memory(&analysis, &partition, &Plan::of(&job), resources, (Storage::Double, Some(800)))
+        })
     };
     let Err(Error::MemoryForecast { factors, matrices, vectors, .. }) = at_once(Some(1)) else { panic!("a byte") };
     let one = factors + matrices + vectors;

@@ -125,6 +125,25 @@ fn never_over_the_superelement() {
     assert!(place.bytes("x.supel") == before);
 }
 
+/// The matrices that a superelement was reduced from keep their place, whatever they are called.
+#[test]
+fn never_over_the_model() {
+    let place = reduced("guyan", "");
+    std::fs::create_dir(place.path("model")).expect("a folder");
+    for (name, exported) in [("M.mtx", "mass.mtx"), ("nodes.csv", "nodes.csv")] {
+        let (before, path) = (place.bytes(name), format!("model/{exported}"));
+        place.write(&path, &before);
+        let ended = export(&place, "matrix-market", &["--output", &place.text("model")]).expect(ExitCode::Usage);
+        let said = ["error[E-OVERWRITE]", exported, "an input of the reduction"];
+        assert!(said.iter().all(|word| ended.err.contains(word)), "{}", ended.err);
+        assert!(place.bytes(&path) == before);
+        std::fs::remove_file(place.path(&path)).expect("removed");
+    }
+    for _ in 0..2 {
+        export(&place, "matrix-market", &["--output", &place.text("model")]).expect(ExitCode::Done);
+    }
+}
+
 #[test]
 fn what_cannot_be_exported() {
     let place = reduced("guyan", "");

@@ -103,7 +103,15 @@ fn both_kinds_hold_the_tensors_to_the_bit() {
             let expected: Vec<Vec<f64>> =
                 dofs.iter().map(|dof| vec![dof.node as f64, dof.direction as usize as f64 + 1.0]).collect();
             assert_eq!(found["RECDOFS"].rows, expected);
-            assert_eq!(found.len(), 5, "{:?}", found.keys());
+            // Four load transformation matrices, and the acceleration of the centre of a free component.
+            let n_derived = if fixed.is_empty() { 5 } else { 4 };
+            assert_eq!(found.len(), 5 + n_derived, "{:?}", found.keys());
+            let [mass, stiffness] = [&superelement.tensors().mass, &superelement.tensors().stiffness];
+            for (name, of) in [("IFLTMA", mass), ("IFLTMD", stiffness)] {
+                let rows = Matrix::from_fn(superelement.n_interface(), of.cols(), |i, j| of[(i, j)]);
+                assert_same_bits(&found[name].rows, &rows, name);
+            }
+            assert_eq!((found["NETLTMA"].rows.len(), found["NETLTMA"].form), (6, 2));
         }
     }
 }

@@ -34,6 +34,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         stiffness: read(stiffness),
         mass: read(diagonal(&mass)),
         dofs: None,
+        labels: Default::default(),
         nodes: None,
         rows: Default::default(),
         constraints: None,

@@ -102,7 +102,8 @@ fn the_child_ends_with_its_parent() {
     drop(grid);
     file.close().expect("closed");
     let model = serde_json::json!({ "stiffness": place.path("K.mtx"), "mass": place.path("M.mtx"), "nodes": place.path("zeros.hmf") });
-    let task = serde_json::json!({ "model": model, "matrices": [], "cells": "Unwanted", "memory_bytes": null });
+    let task =
+        serde_json::json!({ "model": model, "matrices": [], "modes": [], "cells": "Unwanted", "memory_bytes": null });
     let task = format!("{task}\n");
     let child = || {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("supel"));

@@ -1,9 +1,10 @@
 //! Matrices and damping that are refused.
 
 use supel::cli::ExitCode;
+use supel_models::{Inertia, Material, Section, brick, frame};
 use supel_testing::place::{Place, steel_brick, supel};
 
-use super::{CRAIG_BAMPTON, Case, Entries, FOOT_AND_HUB, any, skew};
+use super::{CRAIG_BAMPTON, Case, Entries, FOOT_AND_HUB, HERTING, any, dense, modes, skew};
 
 const SPIN: &str = "[[matrix]]\nname = \"spin\"\nkind = \"gyroscopic\"\nfile = \"G.mtx\"\n";
 
@@ -80,6 +81,45 @@ fn dampers_to_the_ground_are_told_from_rounding() {
     case.matrix("C.mtx", "general", &pushing);
     let ended = case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &seal("")).expect(ExitCode::ModelPhysics);
     assert!(ended.err.contains("E-DAMPING-RIGID"), "{}", ended.err);
+}
+
+/// M Φ diag(2ζω) Φᵀ M of the elastic modes of the full model, in double precision: its rows of rigid-body motion hold the errors of the modes.
+#[test]
+fn modal_damping_of_the_full_model_is_no_damper_to_the_ground() {
+    let nodes: Vec<[f64; 3]> = (0..12).map(|k| [0.1, 0.07, 0.05].map(|x| (x * f64::from(k * k)).sin())).collect();
+    let edges: Vec<[usize; 2]> = (1..12).map(|node| [node - 1, node]).chain([[0, 11], [3, 10]]).collect();
+    let beams = frame(&nodes, &edges, &Section::round(0.015), &Material::STEEL_SI, Inertia::Consistent);
+    let solid = brick([4, 2, 1], [0.31, 0.13, 0.05], &Material::STEEL_SI);
+    let on_nodes = r#"{ name = "a", nodes = [1, 5, 11] }"#;
+    let damping = "[[matrix]]\nname = \"modal\"\nkind = \"damping\"\nfile = \"C.mtx\"\n";
+    for (what, model) in [("beams", beams), ("solid", solid)] {
+        let case = Case::new(model);
+        let n = case.model.n;
+        let mass = dense(n, &case.model.mass);
+        let (lambda, shapes) = modes([&dense(n, &case.model.stiffness), &mass]);
+        let momenta = &mass * shapes;
+        let made = |i: usize, j: usize| -> f64 {
+            (6..n).map(|k| momenta[(i, k)] * 0.04 * lambda[k].max(0.0).sqrt() * momenta[(j, k)]).sum()
+        };
+        let all = || (0..n).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        let entries: Entries = all().map(|(i, j)| (i as u32, j as u32, made(i, j))).collect();
+        case.matrix("C.mtx", "symmetric", &entries);
+        for method in [CRAIG_BAMPTON, HERTING] {
+            let ended = case.run(on_nodes, method, damping);
+            assert_eq!(ended.code, ExitCode::Done, "{what}: {}", ended.err);
+            case.verify(&[]).expect(ExitCode::Done);
+            case.verify_with_job().expect(ExitCode::Done);
+        }
+        // A millionth of its own damping, from one dof to the ground.
+        let largest = entries.iter().fold(0.0f64, |max, entry| max.max(entry.2));
+        let grounded: Entries = entries
+            .iter()
+            .map(|(i, j, value)| (*i, *j, if i == j && *value == largest { value * (1.0 + 1e-6) } else { *value }))
+            .collect();
+        case.matrix("C.mtx", "symmetric", &grounded);
+        let ended = case.run(on_nodes, HERTING, damping);
+        assert!(ended.err.contains("E-DAMPING-RIGID"), "{what}: {}", ended.err);
+    }
 }
 
 /// The damper of 2 between nodes 5 and 25, along the line between them, and one of 10⁵ between two nodes of the patch, in nine digits: those

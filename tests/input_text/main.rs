@@ -34,7 +34,7 @@ impl Folder {
 
 /// A job that reads these two matrices and nothing else.
 pub(crate) fn job(stiffness: &Path, mass: &Path) -> ModelJob {
-    ModelJob { stiffness: stiffness.to_owned(), mass: mass.to_owned(), ..ModelJob::default() }
+    ModelJob { stiffness: stiffness.to_owned(), mass: Some(mass.to_owned()), ..ModelJob::default() }
 }
 
 /// Reads one text as both matrices.

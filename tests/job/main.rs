@@ -5,8 +5,9 @@ mod by_schema;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
+use supel::dofs::Direction;
 use supel::error::{Error, ErrorClass, Result};
-use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Origin, Region, Support};
+use supel::job::{Coupling, DofUse, Job, Method, ModeSelection, NodeSelection, Origin, Region, Support};
 use supel_runtime::Precision;
 
 const FULL: &str = r#"
@@ -97,7 +98,7 @@ fn schema() -> jsonschema::Validator {
 fn every_key_of_a_toml_job_is_read() {
     let job = Job::parse(FULL, Path::new("job.toml")).expect("a job");
     job.validate().expect("valid");
-    assert_eq!(job.model.mass, PathBuf::from("model.h5:/M"));
+    assert_eq!(job.model.mass, Some(PathBuf::from("model.h5:/M")));
     assert_eq!(job.model.expect.as_ref().and_then(|expect| expect.cg), Some([0.0, 0.0, 41.2]));
     assert_eq!(job.interfaces[0].nodes.group_name(), Some("HUB"));
     assert_eq!(job.interfaces[0].coupling, Coupling::Rigid);
@@ -136,7 +137,7 @@ fn paths_are_relative_to_the_folder_of_the_job() {
     std::fs::write(&path, FULL).expect("written");
     let job = Job::read(&path).expect("a job");
     assert_eq!(job.model.stiffness, folder.path().join("K.mtx.gz"));
-    assert_eq!(job.model.mass, folder.path().join("model.h5:/M"));
+    assert_eq!(job.model.mass, Some(folder.path().join("model.h5:/M")));
     assert_eq!(job.write.superelement, folder.path().join("out/bracket.supel"));
     assert_eq!(job.write.report_path(), folder.path().join("out/bracket.json"));
     assert_eq!(job.write.html, Some(folder.path().join("out/bracket.html")));
@@ -181,7 +182,7 @@ fn values_of_the_wrong_kind_are_located() {
         error.to_string()
     };
     let at_28 = |to: &str| wrong("{ up_to_hz = 1000 }", to);
-    insta::assert_snapshot!(wrong("mass      = \"model.h5:/M\"", ""), @"job.toml:2: `model.mass` is missing");
+    insta::assert_snapshot!(wrong("stiffness = \"K.mtx.gz\"", ""), @"job.toml:2: `model.stiffness` is missing");
     insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton", "herting", "rubin", "macneal", "mixed-interface", "guyan" or "mode-acceleration""#);
     insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` has `count` and `up_to_hz` – expected exactly one of `count`, `up_to_hz` and `file`");
     insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` is empty – expected exactly one of `count`, `up_to_hz` and `file`");
@@ -299,6 +300,8 @@ fn scenes_are_checked() {
         (json!({ "band_hz": [-1, 4] }), "zero or more"),
         (json!({ "boundaries": ["mass:hub=-2"] }), "a positive number"),
         (json!({ "boundaries": ["mass:hub=much"] }), "expected `free`, `fix:NAME`"),
+        (json!({ "boundaries": ["spring:hub=0"] }), "a positive number"),
+        (json!({ "boundaries": ["spring:hub"] }), "`spring:NAME=1e5`"),
         (json!({ "boundaries": ["held"] }), "boundary `held`"),
         (json!({ "boundaries": ["fix:"] }), "boundary `fix:`"),
         (json!({ "damping": { "ratio": 0 } }), "a positive number"),
@@ -314,6 +317,52 @@ fn scenes_are_checked() {
         assert!(matches!(error, Error::JobNumber { .. }), "{error}");
     }
     assert!(read(&scene(json!({ "boundaries": [] }))).is_ok(), "an empty list compares none");
+}
+
+#[test]
+fn statements_of_the_scene_are_checked() {
+    let scene = |scene: Value| with("/scene", scene);
+    for (wrong, code, expected) in [
+        (json!({ "grounded": ["pin"] }), "E-SCENE-PART", "scene.grounded: `pin` is no interface"),
+        (json!({ "connected": ["hub.up"] }), "E-SCENE-PART", "the job has hub"),
+        (json!({ "prescribed": [{ "name": "t", "interfaces": ["pin"] }] }), "E-SCENE-PART", "scene.prescribed"),
+        (json!({ "grounded": ["hub"], "unloaded": ["hub.rx"] }), "E-SCENE-CONFLICT", "unloaded and grounded"),
+        (json!({ "unloaded": ["hub.rx", "hub.rx"] }), "E-SCENE-CONFLICT", "`hub.rx` is unloaded and listed twice"),
+        (json!({ "unloaded": ["hub.rx"], "connected": ["hub.ux"] }), "E-SCENE-CONFLICT", "unlisted as connected"),
+        (
+            json!({ "grounded": ["hub.ux"], "prescribed": [{ "name": "t", "interfaces": ["hub"] }] }),
+            "E-SCENE-CONFLICT",
+            "`hub` is grounded and prescribed",
+        ),
+        (json!({ "prescribed": [{ "name": " ", "interfaces": ["hub"] }] }), "E-SCENE-CARRIER", "has no name"),
+        (json!({ "grounded": ["hub"], "boundaries": ["fix:hub"] }), "E-SCENE-LEFT-OUT", "`hub` is grounded"),
+        (json!({ "connected": [], "gravity": true }), "E-JOB-EMPTY", "scene.connected"),
+        (json!({ "analysis": "static", "band_hz": [0, 5] }), "E-SCENE-STATIC", "scene.band_hz: a static analysis"),
+        (json!({ "analysis": "static", "accept": { "frequency": 0.1 } }), "E-SCENE-STATIC", "accept.frequency"),
+        (json!({ "gravity": [0, 0, 0] }), "E-ARG", "a vector with a direction"),
+        (json!({ "gravity": "down" }), "E-JOB", "expected"),
+    ] {
+        let error = read(&scene(wrong.clone())).expect_err("refused");
+        assert!(error.to_string().contains(expected), "{wrong}: {error}");
+        assert!(error.code().starts_with(code), "{wrong}: {}", error.code());
+    }
+    let carried = json!({ "prescribed": [{ "name": "table", "interfaces": ["hub"] }], "boundaries": ["fix:table"] });
+    assert!(read(&scene(carried)).is_ok(), "a boundary may name a carrier");
+    let half = json!({ "grounded": ["hub.ux"], "boundaries": ["fix:hub"] });
+    assert!(read(&scene(half)).is_ok(), "what is left of an interface may be held");
+}
+
+#[test]
+fn what_the_scene_says_of_a_dof_is_found() {
+    let job = read(&with("/scene", json!({ "unloaded": ["hub.rx"], "grounded": ["hub.uz"] }))).expect("a job");
+    let scene = job.scene.as_ref().expect("a scene");
+    let of = |direction| scene.use_of(&job.interfaces, ("hub", Some(direction)));
+    assert_eq!((of(Direction::Rx), of(Direction::Uz)), (DofUse::Unloaded, DofUse::Grounded));
+    assert_eq!((of(Direction::Ux), scene.use_of_whole(&job.interfaces, "hub")), (DofUse::Connected, None));
+    let job = read(&with("/scene", json!({ "connected": ["hub.ux"] }))).expect("a job");
+    let scene = job.scene.as_ref().expect("a scene");
+    let of = |direction| scene.use_of(&job.interfaces, ("hub", Some(direction)));
+    assert_eq!((of(Direction::Ux), of(Direction::Uz)), (DofUse::Connected, DofUse::Unloaded));
 }
 
 #[test]
@@ -446,7 +495,7 @@ fn names_that_are_not_utf8_are_refused() {
     type Change = fn(&mut Job, PathBuf);
     let changes: [(&str, Change); 9] = [
         ("model.stiffness", |job, path| job.model.stiffness = path),
-        ("model.mass", |job, path| job.model.mass = path),
+        ("model.mass", |job, path| job.model.mass = Some(path)),
         ("model.dofs", |job, path| job.model.dofs = Some(path)),
         ("model.nodes", |job, path| job.model.nodes = Some(path)),
         ("model.constraints", |job, path| job.model.constraints = Some(path)),
@@ -505,17 +554,8 @@ fn changed_jobs() -> Vec<Value> {
         with("/reduction/modes", json!({ "count": -3 })),
         with("/reduction/modes", json!({ "up_to_hz": 0 })),
         with("/reduction/eigensolver", "arpack".into()),
-        with("/scene", json!({})),
-        with("/scene", json!({ "band_hz": [0, 50], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5e3"] })),
-        with("/scene", json!({ "band_hz": [0, -50] })),
-        with("/scene", json!({ "band_hz": [0, 5, 50] })),
-        with("/scene", json!({ "boundaries": "free" })),
-        with("/scene", json!({ "boundaries": ["freed"] })),
-        with("/scene", json!({ "boundaries": ["mass:hub="] })),
-        with("/scene", json!({ "damping": { "ratio": 0.02 } })),
-        with("/scene", json!({ "damping": { "ratio": 1.0 } })),
-        with("/scene", json!({ "damping": {} })),
-        with("/scene", json!({ "gravity": true })),
+        with("/run", json!({ "skip": "nothing" })),
+        with("/run", json!({ "skip": true })),
         with("/run", json!({ "certify": "full" })),
         with("/run", json!({ "certify": "count", "memory_gib": 0.5 })),
         with("/run", json!({ "precision": "auto" })),
@@ -531,6 +571,29 @@ fn changed_jobs() -> Vec<Value> {
         with("/model/constraints", "G.mtx".into()),
         with("/model/constraints_to_ground", "accept".into()),
         with("/model/units", 3.into()),
+    ]
+}
+
+/// The small job with a scene, some of them allowed and some not.
+fn scenes() -> Vec<Value> {
+    vec![
+        with("/scene", json!({})),
+        with("/scene", json!({ "band_hz": [0, 50], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5e3"] })),
+        with("/scene", json!({ "band_hz": [0, -50] })),
+        with("/scene", json!({ "band_hz": [0, 5, 50] })),
+        with("/scene", json!({ "boundaries": "free" })),
+        with("/scene", json!({ "boundaries": ["freed"] })),
+        with("/scene", json!({ "boundaries": ["mass:hub="] })),
+        with("/scene", json!({ "damping": { "ratio": 0.02 } })),
+        with("/scene", json!({ "damping": { "ratio": 1.0 } })),
+        with("/scene", json!({ "damping": {} })),
+        with("/scene", json!({ "gravity": true })),
+        with("/scene", json!({ "gravity": [0, 0, -1] })),
+        with("/scene", json!({ "gravity": [0, -1] })),
+        with("/scene", json!({ "analysis": "static" })),
+        with("/scene", json!({ "analysis": "dynamic" })),
+        with("/scene", json!({ "connected": ["hub.ux"] })),
+        with("/scene", json!({ "connected": [] })),
     ]
 }
 
@@ -584,6 +647,14 @@ fn loads() -> Vec<Value> {
         load(json!({ "name": "a", "nodes": { "rows": [0] }, "force": [0, 0, 1] })),
         load(json!({ "name": "a", "nodes": [4, 4], "force": [0, 0, 1] })),
         load(json!({ "name": "a", "nodes": [4] })),
+        load(json!({ "name": "a", "nodes": [4, 9, 17], "pressure": 2.5 })),
+        load(json!({ "name": "a", "nodes": "group:A", "pressure": -1e-6 })),
+        load(json!({ "name": "a", "nodes": "group:A", "pressure": 0 })),
+        load(json!({ "name": "a", "nodes": "group:A", "pressure": 1e60 })),
+        load(json!({ "name": "a", "nodes": "group:A", "pressure": 1, "force": [0, 0, 1] })),
+        load(json!({ "name": "a", "pressure": 1 })),
+        load(json!({ "name": "a", "pressure": 1, "file": "f.mtx" })),
+        load(json!({ "name": "a", "nodes": "group:A", "pressure": 1, "rotation": { "axis": [0, 0, 1] } })),
         load(json!({ "name": "a", "force": [0, 0, 1] })),
         load(json!({ "name": "a", "file": "f.mtx" })),
         load(json!({ "name": "a", "file": "f.mtx", "column": 0 })),
@@ -684,7 +755,9 @@ fn every_key_is_described() {
             }
             walk(schema, value, &here, bare);
         }
-        let choices = ["oneOf", "anyOf"].into_iter().filter_map(|key| part[key].as_array()).flatten();
+        // Choices next to keys are conditions on these.
+        let choices = ["oneOf", "anyOf"].into_iter().filter(|_| part["properties"].is_null());
+        let choices = choices.filter_map(|key| part[key].as_array()).flatten();
         choices.chain(target).for_each(|part| walk(schema, part, place, bare));
         if part["items"].is_object() {
             walk(schema, &part["items"], &format!("{place}[]"), bare);
@@ -701,7 +774,7 @@ fn schema_and_program_agree() {
     let schema = schema();
     let mut n_accepted = 0;
     let cases = changed_jobs().into_iter().chain(recoveries()).chain(fixed()).chain(loads());
-    for case in cases.chain(modes_of_a_file()).chain(states()) {
+    for case in cases.chain(scenes()).chain(modes_of_a_file()).chain(states()) {
         let found = read(&case);
         assert_eq!(schema.is_valid(&case), found.is_ok(), "{case}: {:?}", found.err().map(|error| error.to_string()));
         n_accepted += usize::from(found.is_ok());

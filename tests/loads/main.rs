@@ -1,5 +1,7 @@
 //! Loads that the job names: what the superelement has of them.
 
+#[cfg(feature = "hdf5")]
+mod pressure;
 mod refused;
 mod statics;
 mod told;

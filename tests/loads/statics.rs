@@ -30,7 +30,7 @@ fn full_answer(model: &Model, load: &[f64], is_held: impl Fn(usize) -> bool) -> 
 }
 
 /// W q of the reduced static answer K̂ q = f̂ with the first `n_held` coordinates at rest.
-fn reduced_answer(file: &Superelement, load: usize, n_held: usize) -> Vec<f64> {
+pub(super) fn reduced_answer(file: &Superelement, load: usize, n_held: usize) -> Vec<f64> {
     let tensors = file.tensors();
     let n = file.n_coordinates() - n_held;
     // Modal amplitudes are as small as modes of a heavy body are; in the scale of the diagonal the factor is that of motions.
@@ -44,7 +44,7 @@ fn reduced_answer(file: &Superelement, load: usize, n_held: usize) -> Vec<f64> {
 }
 
 /// The largest difference, relative to the largest displacement.
-fn difference(found: &[f64], expected: &[f64]) -> f64 {
+pub(super) fn difference(found: &[f64], expected: &[f64]) -> f64 {
     let size = expected.iter().fold(0.0f64, |size, value| size.max(value.abs()));
     assert!(size > 0.0, "there is something to compare with");
     found.iter().zip(expected).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs())) / size

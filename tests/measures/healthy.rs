@@ -5,8 +5,8 @@ use supel::verification::check::Verdict;
 use supel_models::transform::{dof_scaled, scaled, translated};
 use supel_models::{Ends, Material, Model, bar, brick, known, ring, spring};
 
-use crate::cases::{N_MODES, cases};
-use crate::chain::{direct, rows};
+use crate::cases::{N_MODES, average, cases};
+use crate::chain::{direct, rigid_group, rows};
 use crate::evidence::{checks, complaints, line, with_model};
 
 const METHODS: [Method; 2] = [Method::CraigBampton, Method::Herting];
@@ -78,6 +78,19 @@ fn soft_modes_of_a_stiff_interface_are_no_zero_modes() {
         assert_healthy("plate by its corners", &plate, &[direct("corners", &[1, 13, 131, 143, 144])], 12);
         let bar = brick([60, 1, 1], [1000.0, 0.9 * thickness, thickness], &Material::STEEL_MM_T_S);
         assert_healthy("bar by its ends", &bar, &[direct("ends", &[1, 61, 62, 123, 181])], 12);
+    }
+}
+
+/// K̂ of a free component that one patch holds is rounding at the interface. In which unit a rotation is worth more than a mode is no matter.
+#[test]
+fn one_patch_holds_a_free_component_in_any_unit_of_length() {
+    let part = brick([5, 2, 2], [0.25, 0.1, 0.08], &Material::STEEL_SI);
+    for unit in [1.0, 1e3, 1e6, 1e9] {
+        let mut model = scaled(&part, 1.0 / unit, 1.0 / unit);
+        model.nodes.iter_mut().flatten().for_each(|x| *x *= unit);
+        for interface in [rigid_group("XMIN"), average("XMIN")] {
+            assert_healthy(&format!("one patch, unit {unit:e}"), &model, &[interface], 6);
+        }
     }
 }
 

@@ -83,7 +83,7 @@ fn what_the_interface_does_not_carry_of_a_rotation_is_told_alike_in_every_unit()
                 let site = evidence.partition.dofs[row].site.expect("a place");
                 matches!(site.direction, Direction::Rx | Direction::Ry | Direction::Rz)
             };
-            let turns = &mut basis.constraint_modes;
+            let turns = basis.constraint_modes.stored_mut().expect("stored");
             // The rotations of the last row that has them follow those of the interface one to one.
             let row = (0..evidence.partition.n_internal).rev().find(|row| is_rotation(*row)).expect("a rotation");
             let followed = (0..turns.ncols()).filter(|j| is_rotation(evidence.partition.n_internal + j));

@@ -144,6 +144,6 @@ fn negative_energy_of_a_rigid_body_motion_is_rounding_or_counted() {
     }
     let partition = partition(&with_spectrum(&spectrum(-1e-7)), &[]).expect("a model");
     let error = refusal(rigid::from_matrices(&partition));
-    assert!(matches!(error, Error::NegativeRigidEnergy { count: 1, .. }), "{error}");
-    assert_says(&error, ErrorClass::ModelPhysics, &["negative energy", "a Sturm count finds 1 eigenvalue"]);
+    assert!(matches!(error, Error::IndefiniteStiffness { count: 1, .. }), "{error}");
+    assert_says(&error, ErrorClass::ModelPhysics, &["1 negative eigenvalue", "by a Sturm count"]);
 }

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use hdf5_metno::{File, H5Type};
-use supel::error::{Error, Result};
-use supel::input::{Allowance, Faces, Patch, PatchFaces, Patches, patch_faces};
+use supel::error::{Error, Result, Selector};
+use supel::input::{Allowance, Faces, Patch, PatchFaces, Patches, area_vectors, patch_faces};
 use supel::job::ModelJob;
 use tempfile::TempDir;
 
@@ -118,15 +118,19 @@ impl Mesh {
     }
 
     /// The nodes below.
-    fn patch(&self) -> Patches {
+    fn patch(&self) -> Patches<'_> {
         self.patch_where(|point| point[2] == 0.0)
     }
 
-    fn patch_where(&self, is_in: impl Fn(Point) -> bool) -> Patches {
+    fn patch_where(&self, is_in: impl Fn(Point) -> bool) -> Patches<'_> {
         let nodes: Vec<usize> = (0..self.points.len()).filter(|node| is_in(self.points[*node])).collect();
-        let positions = nodes.iter().map(|node| self.points[*node]).collect();
-        Patches { n_nodes: self.points.len(), list: vec![Patch { interface: "below".to_owned(), nodes, positions }] }
+        Patches { coordinates: &self.points, list: vec![Patch { of: below(), nodes }] }
     }
+}
+
+/// Who asks for the faces of the one patch.
+fn below() -> Selector {
+    Selector::Interface("below".to_owned())
 }
 
 fn mean(points: &[Point]) -> Point {
@@ -180,11 +184,11 @@ impl Written {
         Self(folder, path)
     }
 
-    fn faces(&self, patches: &Patches) -> Result<Vec<PatchFaces>> {
+    fn faces(&self, patches: &Patches<'_>) -> Result<Vec<PatchFaces>> {
         self.faces_within(patches, None)
     }
 
-    fn faces_within(&self, patches: &Patches, bytes: Option<u64>) -> Result<Vec<PatchFaces>> {
+    fn faces_within(&self, patches: &Patches<'_>, bytes: Option<u64>) -> Result<Vec<PatchFaces>> {
         let model = ModelJob { nodes: Some(self.1.clone()), ..ModelJob::default() };
         patch_faces(&model, patches, &Allowance::of(bytes))
     }
@@ -263,8 +267,8 @@ fn topology(kind: &str, numbers: &[i64]) -> String {
 #[track_caller]
 fn assert_centroid(found: &Result<Vec<PatchFaces>>, n_faces: usize, centroid: Point, what: &str) {
     let Ok([only]) = found.as_deref() else { panic!("{what}: {found:?}") };
-    let Faces::Known { count, centroid: found, .. } = &only.faces else { panic!("{what}: {only:?}") };
-    assert_eq!((only.interface.as_str(), *count), ("below", n_faces), "{what}");
+    let Faces::Known { faces, centroid: found, .. } = &only.faces else { panic!("{what}: {only:?}") };
+    assert_eq!((&only.of, faces.len()), (&below(), n_faces), "{what}");
     for (found, expected) in found.iter().zip(centroid) {
         assert!((found - expected).abs() <= ROUNDING * 3.0, "{what}: {only:?}");
     }
@@ -286,7 +290,8 @@ fn every_kind_of_cell_in_every_format() {
         for order in [Order::BottomTopUpright, Order::BottomUprightTop] {
             let mesh = Mesh::of(*shape, *n_nodes, order);
             let patches = mesh.patch();
-            let node_mean = mean(&patches.list[0].positions);
+            let places: Vec<Point> = patches.list[0].nodes.iter().map(|node| mesh.points[*node]).collect();
+            let node_mean = mean(&places);
             assert!(
                 (node_mean[0] - CENTROID[0]).abs() > 0.04,
                 "the mean of a graded patch is elsewhere: {node_mean:?}"
@@ -314,6 +319,72 @@ fn every_kind_of_cell_in_every_format() {
             assert_centroid(&found, n_faces, CENTROID, &what("XDMF, mixed"));
         }
     }
+}
+
+/// The sums of area vectors, and of places times them, over all faces of the one patch.
+fn areas(found: &Result<Vec<PatchFaces>>, patches: &Patches<'_>) -> (Point, f64) {
+    let Ok([only]) = found.as_deref() else { panic!("{found:?}") };
+    let Faces::Known { faces, .. } = &only.faces else { panic!("{only:?}") };
+    let position = |place: usize| patches.coordinates[patches.list[0].nodes[place]];
+    let (mut sum, mut along) = ([0.0; 3], 0.0);
+    for face in faces {
+        for (node, area) in face.nodes().zip(area_vectors(face, position)) {
+            for axis in 0..3 {
+                sum[axis] += area[axis];
+                along += position(node)[axis] * area[axis];
+            }
+        }
+    }
+    (sum, along)
+}
+
+/// Area vectors of faces point out of their volume cells, however a format turns these: those of a closed surface add up to nothing and,
+/// times the places of their nodes, to three times the volume, for x has the divergence 3 and elements interpolate it exactly.
+#[test]
+fn faces_of_volumes_look_outwards() {
+    for (shape, n_nodes, kind) in &KINDS {
+        let mut mesh = Mesh::of(*shape, *n_nodes, Order::BottomTopUpright);
+        let numbers = columns(&rows(&mesh.cells, 1), *n_nodes);
+        let found = med(&mesh, &[(kind.med, numbers.clone())]).faces(&mesh.patch());
+        let (sum, _) = areas(&found, &mesh.patch());
+        let what = format!("{shape:?} of {n_nodes} nodes");
+        if matches!(shape, Shape::Triangle | Shape::Quad) {
+            // Those are in the order of their nodes, upwards here.
+            assert!((sum[2] - 6.0).abs() <= ROUNDING * 6.0, "{what}: {sum:?}");
+            continue;
+        }
+        assert!((sum[2] + 6.0).abs() <= ROUNDING * 6.0, "{what}: {sum:?}");
+        let whole = mesh.patch_where(|_| true);
+        let (sum, along) = areas(&med(&mesh, &[(kind.med, numbers)]).faces(&whole), &whole);
+        assert!(sum.iter().all(|sum| sum.abs() <= ROUNDING * 22.0), "{what}: {sum:?}");
+        assert!((along - 18.0).abs() <= ROUNDING * 18.0, "{what}: {along}");
+        // As the mirror image has them: bottom and top the other way round, as MED has bricks.
+        mesh.points.iter_mut().for_each(|point| point[1] = 2.0 - point[1]);
+        let whole = mesh.patch_where(|_| true);
+        let written = med(&mesh, &[(kind.med, columns(&rows(&mesh.cells, 1), *n_nodes))]);
+        let (sum, along) = areas(&written.faces(&whole), &whole);
+        assert!(sum.iter().all(|sum| sum.abs() <= ROUNDING * 22.0), "{what}, mirrored: {sum:?}");
+        assert!((along - 18.0).abs() <= ROUNDING * 18.0, "{what}, mirrored: {along}");
+    }
+}
+
+/// Patches may have nodes in common: each has its own faces.
+#[test]
+fn a_node_may_belong_to_several_patches() {
+    let mesh = Mesh::of(Shape::Brick, 20, Order::BottomTopUpright);
+    let written = med(&mesh, &[("H20", columns(&rows(&mesh.cells, 1), 20))]);
+    let whole = mesh.patch_where(|_| true).list.remove(0);
+    let side = mesh.patch_where(|[x, ..]| x == 0.0).list.remove(0);
+    let list = vec![mesh.patch().list.remove(0), whole, side];
+    let found = written.faces(&Patches { coordinates: &mesh.points, list }).expect("read");
+    let counts: Vec<usize> = found
+        .iter()
+        .map(|patch| match &patch.faces {
+            Faces::Known { faces, .. } => faces.len(),
+            Faces::Unknown { .. } => 0,
+        })
+        .collect();
+    assert_eq!(counts, [2, 10, 1]);
 }
 
 /// Numbers in a file of HDF5 next to the document.
@@ -540,7 +611,8 @@ fn without_known_faces_nothing_is_claimed() {
 fn tables_of_nodes_have_no_faces() {
     let written = Written::new("a.csv");
     fs::write(&written.1, "node,x,y,z\n1,0,0,0\n2,1,0,0\n").expect("written");
-    let patches = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright).patch();
+    let mesh = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright);
+    let patches = mesh.patch();
     assert_eq!(written.faces(&patches).expect("nothing is read"), []);
 }
 
@@ -619,17 +691,17 @@ fn faces_are_counted_against_the_memory() {
     let triangles: Vec<Vec<usize>> = triples.collect();
     let bytes = (triangles.len() * 3 * 16) as u64;
     let written = med(&mesh, &[("TR3", columns(&rows(&triangles, 1), 3))]);
-    let Faces::Known { count, .. } = written.faces(&patches).expect("room")[0].faces else { panic!("no faces") };
-    assert_eq!(count, triangles.len());
+    let Faces::Known { faces, .. } = &written.faces(&patches).expect("room")[0].faces else { panic!("no faces") };
+    assert_eq!(faces.len(), triangles.len());
     let within =
         |bytes_of_face: u64| written.faces_within(&patches, Some(bytes + triangles.len() as u64 * bytes_of_face));
-    // A face counts 512 bytes where it is kept and 256 more while faces are compared. Without the first 300 would do, and 600 without the
+    // A face counts 768 bytes where it is kept and 256 more while faces are compared. Without the first 300 would do, and 800 without the
     // second.
-    for too_few in [300, 600] {
+    for too_few in [300, 800] {
         let outcome = within(too_few);
         assert!(matches!(outcome, Err(Error::MemoryRead { .. })), "{too_few}: {outcome:?}");
     }
-    assert!(within(900).is_ok());
+    assert!(within(1100).is_ok());
 }
 
 /// The bundled example: the base is a square plate with holes, the eye a bore.
@@ -637,14 +709,9 @@ fn faces_are_counted_against_the_memory() {
 fn the_bundled_mesh_has_faces() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket/bracket.med");
     let nodes = supel::input::hdf5::read_nodes(&path).expect("a mesh");
-    let patch = |group: &str| {
-        let nodes_of = nodes.groups[group].clone();
-        let positions = nodes_of.iter().map(|node| nodes.coordinates[*node]).collect();
-        Patch { interface: group.to_owned(), nodes: nodes_of, positions }
-    };
-    let patches = Patches { n_nodes: nodes.labels.len(), list: vec![patch("BASE"), patch("EYE")] };
+    let patch = |group: &str| Patch { of: Selector::Interface(group.to_owned()), nodes: nodes.groups[group].clone() };
+    let patches = Patches { coordinates: &nodes.coordinates, list: vec![patch("BASE"), patch("EYE")] };
     let model = ModelJob { nodes: Some(path), ..ModelJob::default() };
     let found = patch_faces(&model, &patches, &Allowance::of(None)).expect("faces");
-    assert_eq!(found.iter().map(|faces| faces.interface.as_str()).collect::<Vec<_>>(), ["BASE", "EYE"]);
-    println!("{found:?}");
+    assert_eq!(found.iter().map(|faces| faces.of.name()).collect::<Vec<_>>(), ["BASE", "EYE"]);
 }

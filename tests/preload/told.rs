@@ -59,6 +59,17 @@ fn other_forces_are_another_input() {
     assert!(ended.out.contains("worst at internal_forces"), "{}", ended.out);
 }
 
+/// What the preload costs a rotation is no spring to the ground.
+#[test]
+fn preload_is_not_taken_for_a_support() {
+    for strain in [1e-5, 4e-4, 1e-3] {
+        let network = tower(Nodes::Points, strain);
+        let ended = reduced(&place_of(&network, &network.forces, (PRELOADED, ENDS), HERTING));
+        assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
+        assert!(!ended.out.contains("W-GROUNDED") && !ended.err.contains("W-GROUNDED"), "{strain}: {}", ended.out);
+    }
+}
+
 /// Mass and centre are compared by the mass of the model, for the free motions do not have them.
 #[test]
 fn an_expected_mass_is_compared() {

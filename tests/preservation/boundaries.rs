@@ -11,13 +11,16 @@ fn files() -> Files {
     Files::new(block(), vec![rigid_group("XMIN"), direct("tip", &[5, 45])])
 }
 
-/// The full and the reduced model with interface dofs held and loaded.
-fn spectra(full: &Dense, reduced: &Dense, held: &[usize], load: &[f64]) -> [Vec<f64>; 2] {
+/// The full and the reduced model with interface dofs held, loaded and on springs.
+fn spectra(full: &Dense, reduced: &Dense, held: &[usize], [load, springs]: [&[f64]; 2]) -> [Vec<f64>; 2] {
     let n_b = load.len();
     let n_i = full.k.nrows() - n_b;
     let supported = |model: &Dense, first: usize| {
         let mut loaded = Dense { k: model.k.clone(), m: model.m.clone() };
-        (0..n_b).for_each(|dof| loaded.m[(first + dof, first + dof)] += load[dof]);
+        for dof in 0..n_b {
+            loaded.m[(first + dof, first + dof)] += load[dof];
+            loaded.k[(first + dof, first + dof)] += springs[dof];
+        }
         let kept: Vec<usize> = (0..model.k.nrows()).filter(|i| !held.iter().any(|dof| first + dof == *i)).collect();
         loaded.restricted(&kept)
     };
@@ -82,7 +85,36 @@ fn frequencies_under_other_boundaries_are_those_of_dense_spectra() {
         for (comparison, (held, (load, n_zero))) in
             found.iter().zip(held.iter().zip(loads.into_iter().zip([6, 0, 1, 6, 6])))
         {
-            assert_agrees(comparison, &spectra(&full, &reduced, held, load), n_zero, band_end);
+            assert_agrees(comparison, &spectra(&full, &reduced, held, [load, &nothing]), n_zero, band_end);
+        }
+    }
+}
+
+/// Translations on springs: of the one node of a patch, which still turns, and of two nodes, which still turn about their line.
+#[test]
+fn frequencies_on_springs_are_those_of_dense_spectra() {
+    let files = files();
+    let partition = partition(&files.model, &files.interfaces).expect("sound");
+    let twin = Twin::new(&files.model, &files.interfaces, &partition);
+    let full = Dense::of(&files.model).transformed(&twin.transformation);
+    let is_rotation =
+        |dof: usize| partition.dofs[partition.n_internal + dof].site.expect("a site").direction.is_rotation();
+    let springs = |dofs: std::ops::Range<usize>, each: f64| -> Vec<f64> {
+        (0..12).map(|dof| if dofs.contains(&dof) && !is_rotation(dof) { each } else { 0.0 }).collect()
+    };
+    let nothing = vec![0.0; 12];
+    let scene = "band_hz = [0, 5000]\nboundaries = [\"spring:XMIN=1e8\", \"spring:tip=2e9\"]";
+    for method in ["herting", "craig-bampton", "macneal"] {
+        let outcome = files.reduce(method, "count = 8", scene);
+        let reduced = reduced(&outcome.superelement);
+        let found = &outcome.report.body.preservation;
+        assert_eq!(found.not_compared, Vec::<String>::new());
+        let expected = [("spring:XMIN=100000000", 0..6, 1e8, 3), ("spring:tip=2000000000", 6..12, 1e9, 1)];
+        assert_eq!(found.boundaries.len(), 2);
+        for (comparison, (name, dofs, each, n_zero)) in found.boundaries.iter().zip(expected) {
+            assert_eq!(comparison.boundary, name);
+            let spectra = spectra(&full, &reduced, &[], [&nothing, &springs(dofs, each)]);
+            assert_agrees(comparison, &spectra, n_zero, 5000.0);
         }
     }
 }

@@ -136,7 +136,7 @@ proptest! {
     #[test]
     fn the_interface_carries_rigid_body_motion(component in component()) {
         let chain = component.reduce();
-        let modes = chain.constraint.modes.as_ref();
+        let modes = &chain.constraint.modes;
         let error = supel::constraint::rigid_error(&chain.partition, modes, chain.rigid.orthonormal.as_ref());
         prop_assert!(error.value <= 1e-12, "{:?}", error);
         prop_assert_eq!(chain.rigid.count(), component.n_rigid());

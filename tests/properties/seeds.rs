@@ -8,6 +8,7 @@ use supel::factor::Cholesky;
 use supel::job::{Method, ModeSelection, ReductionJob};
 use supel::modes::{Component, ModeSource, Retained, Search};
 use supel::partition::Partition;
+use supel::plan::Relief;
 use supel::random::SEED;
 use supel::reduction::Reduction;
 use supel_models::{Material, brick};
@@ -36,14 +37,17 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
         analysis: &analysis,
         factor: &factor,
         rigid: &rigid,
-        constraint: &constraint,
+        constraint: Some(&constraint),
     };
     let job = ReductionJob::new(method, ModeSelection::Count { count });
     let search = Search::new(component, &job).expect("counts");
     let found = search.lowest(seed).expect("converges");
     let retained = Retained { modes: found, boundary: search.problem.boundary };
-    let basis =
-        Basis::new(&constraint, &supel::basis::retained_columns(component, &job, &retained), partition.internal().mass);
+    let basis = Basis::new(
+        &constraint,
+        &supel::basis::retained_columns(component, &constraint, Relief::of_reduction(&job), &retained),
+        partition.internal().mass,
+    );
     let reduction = Reduction::new(&partition, &basis, &rigid);
     drop(factor);
     Built { reduction, retained, partition }

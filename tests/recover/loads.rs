@@ -84,6 +84,79 @@ fn loads_of_a_motion_change_its_momentum() {
     }
 }
 
+/// A matrix of the export, row by row.
+fn exported(case: &Case, name: &str) -> Vec<Vec<f64>> {
+    let text = String::from_utf8(case.place.bytes(name)).expect("text");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("%%MatrixMarket matrix array real general"));
+    let sizes: Vec<usize> = lines.next().expect("sizes").split(' ').map(|size| size.parse().expect("a size")).collect();
+    let values: Vec<f64> = lines.map(|line| line.parse().expect("a number")).collect();
+    (0..sizes[0]).map(|i| (0..sizes[1]).map(|j| values[i + j * sizes[0]]).collect()).collect()
+}
+
+fn times(rows: &[Vec<f64>], state: &[f64]) -> Vec<f64> {
+    rows.iter().map(|row| row.iter().zip(state).map(|(a, b)| a * b).sum()).collect()
+}
+
+fn sum(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + b).collect()
+}
+
+/// The transformation matrices of an export give what the full model needs: forces on the interface, their resultant, the acceleration of
+/// the centre of mass. All are products of states that obey the equations inside.
+#[test]
+fn transformation_matrices_are_those_of_the_full_model() {
+    let all = "recovery = { nodes = { within = { box = { min = [0, 0, 0], max = [1, 1, 1] } } } }";
+    let case = Case::writing("craig-bampton", foot_and_hub(), all);
+    let to_matrices = ["export", &case.place.text("x.supel"), "--to", "matrix-market"];
+    supel_testing::place::supel(&to_matrices).expect(ExitCode::Done);
+    let of = |name: &str| exported(&case, &format!("x.{name}.mtx"));
+    let [forces_of_a, forces_of_u, net_of_a, net_of_u] =
+        ["ltm-acceleration", "ltm-displacement", "net-ltm-acceleration", "net-ltm-displacement"].map(of);
+    let (of_centre, w) = (of("cg-atm"), of("recovery"));
+    let file = case.place.superelement("x.supel");
+    let n = file.n_coordinates();
+    let (omega, u) = (file.tensors().frequencies[0], &file.tensors().rigid_body_modes);
+    let mode: Vec<f64> = (0..n).map(|at| f64::from(u8::from(at + 5 == n))).collect();
+    let swing: Vec<f64> = mode.iter().map(|q| -omega * omega * q).collect();
+    let turn: Vec<f64> = (0..n).map(|row| u[(row, 4)] + 0.5 * u[(row, 0)]).collect();
+    let statics = [any(15, 3), vec![0.0; n - 15]].concat();
+    let rest = vec![0.0; n];
+    let weight = case.model.total_mass(0);
+    // The block is uniform.
+    let centre = [0.5, 0.31 / 2.0, 0.23 / 2.0];
+    for (q, a, obeys) in [(&mode, &swing, true), (&rest, &turn, false), (&statics, &rest, true)] {
+        let (motion, acceleration) = (times(&w, q), times(&w, a));
+        let inertial = multiply(&case.model.mass, &acceleration);
+        let outer = sum(&multiply(&case.model.stiffness, &motion), &inertial);
+        let found = sum(&times(&forces_of_u, q), &times(&forces_of_a, a));
+        assert_eq!(found.len(), 15);
+        if obeys {
+            let at_foot: Vec<f64> = foot_rows(&case.model).iter().map(|row| outer[*row]).collect();
+            // The residual of a mode, and that of static answers.
+            let error = difference(&found[..9], &at_foot);
+            assert!(error <= 1e-8, "{error:e}");
+        }
+        let net = sum(&times(&net_of_u, q), &times(&net_of_a, a));
+        let size = largest(&found);
+        let momentum = total(&case, &inertial);
+        // Rounding of K, which lets rigid-body motion pass to 1e-12 of the forces inside.
+        assert!(
+            largest(&sum(&net, &momentum.iter().map(|m| -m).collect::<Vec<_>>())) <= 1e-9 * size,
+            "{net:?} {momentum:?}"
+        );
+        // Forces over the mass, and about the centre.
+        let found = times(&of_centre, a);
+        for axis in 0..3 {
+            assert!((found[axis] - momentum[axis] / weight).abs() <= 1e-9 * (1.0 + largest(&found)), "{found:?}");
+        }
+    }
+    // A turn about y through the origin with a translation along x.
+    let found = times(&of_centre, &turn);
+    let wanted = [0.5 + centre[2], 0.0, -centre[0], 0.0, 1.0, 0.0];
+    assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() <= 1e-11), "{found:?}");
+}
+
 /// At rest the interface carries the weight; in free fall it carries nothing.
 #[test]
 fn gravity_is_carried_by_the_interface() {

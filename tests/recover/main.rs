@@ -43,9 +43,10 @@ impl Case {
     }
 
     fn reduced(self, method: &str, interfaces: &str, write: &str) -> Self {
+        let nodes = if self.place.path("mesh.xdmf").exists() { "mesh.xdmf" } else { "nodes.csv" };
         let job = format!(
             r#"
-model     = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv" }}
+model     = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "{nodes}" }}
 interface = [{interfaces}]
 reduction = {{ method = "{method}", modes = {{ count = 5 }} }}
 [write]

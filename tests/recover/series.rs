@@ -59,6 +59,74 @@ fn a_series_holds_the_motion_of_every_state() {
     assert!(case.place.bytes("u.vtkhdf") == before, "the same states, the same bytes");
 }
 
+/// Where the mesh has cells, the outer faces of the recovered nodes are cells of the series, and nodes inside are vertices.
+#[test]
+fn a_series_has_the_surface_of_the_mesh() {
+    use supel_testing::place::{bricks_of_27, bricks_of_eight, xdmf};
+    // 2 (4·2 + 4·2 + 2·2) squares around three nodes inside; 2 (2 + 2 + 1) squares of nine nodes around the same and two centres of bricks.
+    for (cells, n_faces, kind, n_inside) in [(bricks_of_eight(), 40, 9, 3), (bricks_of_27(), 10, 28, 3)] {
+        let case =
+            Case { place: supel_testing::place::Place::with_brick(), model: supel_testing::place::steel_brick() };
+        case.place.write("mesh.xdmf", xdmf(&case.model.nodes, &[cells]).as_bytes());
+        let all = "recovery = { nodes = { within = { box = { min = [0, 0, 0], max = [1, 1, 1] } } } }";
+        let case = case.reduced("craig-bampton", "{ name = \"foot\", nodes = [1, 11, 31] }", all);
+        let made = case.place.superelement("x.supel");
+        let recovery = made.tensors().recovery.as_ref().expect("rows");
+        let (faces, positions) = (recovery.faces().expect("faces"), recovery.positions().expect("positions"));
+        assert_eq!(faces.count(), n_faces);
+        // Seen from outside their corners are counterclockwise: the volume is a third of the sum of x · n dA.
+        let volume: f64 = faces
+            .iter()
+            .map(|face| {
+                let [a, b, c, d] = [0, 1, 2, 3].map(|corner| positions[face[corner]]);
+                let minus = |p: [f64; 3], q: [f64; 3]| -> [f64; 3] { std::array::from_fn(|axis| p[axis] - q[axis]) };
+                let twice = supel_runtime::motion::cross(&minus(c, a), &minus(d, b));
+                supel_runtime::motion::dot(&a, &twice) / 6.0
+            })
+            .sum();
+        assert!((volume / (0.31 * 0.23) - 1.0).abs() < 1e-14, "{volume}");
+        case.table("q.csv", &case.header(), &[any(14, 1)]);
+        let path = case.place.text("u.vtkhdf");
+        case.recover(&["--vtkhdf", &path]).expect(ExitCode::Done);
+        let file = File::open(&path).expect("HDF5");
+        let types = list(&file, "Types");
+        assert_eq!(types, [vec![kind; n_faces], vec![1; n_inside]].concat());
+        let (offsets, ids) = (list(&file, "Offsets"), list(&file, "Connectivity"));
+        let of = |cell: usize| ids[offsets[cell] as usize..offsets[cell + 1] as usize].to_vec();
+        for (cell, face) in faces.iter().enumerate() {
+            assert_eq!(of(cell), face.iter().map(|node| *node as i64).collect::<Vec<_>>());
+        }
+        let inside: Vec<i64> = (n_faces..types.len()).flat_map(of).collect();
+        assert_eq!(inside, [21, 22, 23], "the middle line but for its ends");
+        assert_eq!(list(&file, "NumberOfCells"), [types.len() as i64]);
+        assert_eq!(list(&file, "NumberOfConnectivityIds"), [ids.len() as i64]);
+        drop(file);
+        let verify = ["verify", &case.place.text("x.supel"), "--job", &case.place.text("job.toml")];
+        supel_testing::place::supel(&verify).expect(ExitCode::Done);
+    }
+}
+
+/// A mesh whose cells are not read leaves the nodes alone, and the report says why.
+#[test]
+fn a_mesh_that_does_not_tell_leaves_vertices() {
+    use supel_testing::place::{Place, bricks_of_eight, steel_brick, xdmf};
+    let case = Case { place: Place::with_brick(), model: steel_brick() };
+    let cells = [bricks_of_eight(), ("3DSMesh", vec![])];
+    case.place.write("mesh.xdmf", xdmf(&case.model.nodes, &cells).as_bytes());
+    let case = case.reduced(
+        "craig-bampton",
+        "{ name = \"foot\", nodes = [1, 11, 31] }",
+        "recovery = { nodes = [1, 2, 6, 7, 16, 17, 21, 22] }",
+    );
+    assert!(case.place.superelement("x.supel").tensors().recovery.as_ref().expect("rows").faces().is_none());
+    let report = case.place.report("x.report.json");
+    let said = report["body"]["model"]["notes"].to_string();
+    assert!(
+        said.contains("faces between recovered nodes are not known: the mesh has what supel does not read"),
+        "{said}"
+    );
+}
+
 /// Nothing is left where a state is wrong, the name is not that of a series, or it is that of an input.
 #[test]
 fn a_series_appears_whole_or_not_at_all() {

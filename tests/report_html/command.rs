@@ -33,7 +33,7 @@ fn reduce(reduce: Reduce, folder: &Path, rest: &[(&str, &str)]) -> (ExitCode, St
     let outputs = [("--output", "x.supel")].iter().chain(rest);
     let outputs = outputs.flat_map(|(flag, name)| [OsString::from(flag), folder.join(name).into_os_string()]);
     let args = FLAGS.into_iter().map(OsString::from).chain(outputs).chain(["--quiet".into()]);
-    let code = run(args, Pipeline { reduce, verify: supel::verify }, &mut Terminal::plain(&mut out, &mut err));
+    let code = run(args, Pipeline { reduce, ..supel::PIPELINE }, &mut Terminal::plain(&mut out, &mut err));
     (code, String::from_utf8(err).expect("UTF-8"))
 }
 

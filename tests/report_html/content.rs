@@ -5,7 +5,7 @@ use std::path::Path;
 
 use supel::error::Warning;
 use supel::report::{Completeness, RigidBodyEvidence, html};
-use supel::verification::catalogue::{CATALOGUE, Proof};
+use supel::verification::catalogue::{CATALOGUE, Entry, OF_RESULTS, Proof};
 use supel::verification::check::Verdict;
 use supel::verification::preservation::Preservation;
 
@@ -73,7 +73,7 @@ fn verdict_comes_first_and_counts_the_checks() {
     let failing = report_of_all_checks();
     assert_eq!(failing.body.verdict(), Verdict::Fail);
     let failing = said(failing);
-    let expected = "✗ Not verified 23 of 31 checks passed; failed: M-03, M-12, M-21, M-30; past the limit: M-02, M-11, M-20, M-29; 1 warning.";
+    let expected = "✗ Not verified 24 of 32 checks passed; failed: M-03, M-12, M-21, M-30; past the limit: M-02, M-11, M-20, M-29; 1 warning.";
     assert!(failing.contains(expected), "{failing}");
     let mut incomplete = sample::passing_report();
     for (n_found, doubt, expected) in
@@ -171,7 +171,8 @@ fn the_catalogue_has_each_check_once_in_order() {
     assert!(CATALOGUE.windows(2).all(|pair| pair[0].id < pair[1].id));
     let sources = source_files(Path::new(env!("CARGO_MANIFEST_DIR")).join("src").as_path());
     let made: BTreeSet<String> = sources.iter().flat_map(|source| identifiers(source)).collect();
-    let known: BTreeSet<String> = CATALOGUE.iter().map(|entry| entry.id.to_owned()).collect();
+    assert!(OF_RESULTS.windows(2).all(|pair| pair[0].id < pair[1].id));
+    let known: BTreeSet<String> = CATALOGUE.iter().chain(OF_RESULTS).map(|entry| entry.id.to_owned()).collect();
     assert_eq!(made, known, "checks that the source names, and those of the catalogue");
 }
 
@@ -185,28 +186,39 @@ fn source_files(folder: &Path) -> Vec<String> {
     texts
 }
 
-/// Every `"M-05"` of a source, which is how code names a check.
+/// Every `"M-05"` and `"C-01"` of a source, which is how code names a check.
 fn identifiers(source: &str) -> Vec<String> {
-    let starts = source.match_indices("\"M-").map(|(place, _)| &source[place + 1..]);
+    let starts = ["\"M-", "\"C-"].into_iter().flat_map(|start| source.match_indices(start));
+    let starts = starts.map(|(place, _)| &source[place + 1..]);
     starts.filter(|rest| rest.as_bytes().get(4) == Some(&b'"')).map(|rest| rest[..4].to_owned()).collect()
 }
 
-/// The table of the documentation is made from the catalogue: `SUPEL_UPDATE_DOCS=1 cargo test --test report_html documentation`
-/// writes it.
-#[test]
-fn documentation_has_the_table_of_the_catalogue() {
+/// The tables of the documentation are made from the catalogue: `SUPEL_UPDATE_DOCS=1 cargo test --test report_html documentation`
+/// writes them.
+fn with_table(document: &str, entries: &[Entry]) -> String {
     const HEAD: &str = "| check | answer | what is measured and why |\n|---|---|---|\n";
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/what-the-report-proves.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(document);
     let document = std::fs::read_to_string(&path).expect("document");
     let (before, rest) = document.split_once(HEAD).expect("head of the table");
     let (_, after) = rest.split_once("\n\n").expect("end of the table");
-    let rows = CATALOGUE.iter().map(|entry| format!("| {} | {} | {} |", entry.id, entry.proof.word(), entry.meaning));
+    let rows = entries.iter().map(|entry| format!("| {} | {} | {} |", entry.id, entry.proof.word(), entry.meaning));
     let made = format!("{before}{HEAD}{}\n\n{after}", rows.collect::<Vec<_>>().join("\n"));
     if std::env::var_os("SUPEL_UPDATE_DOCS").is_some() {
         std::fs::write(&path, &made).expect("written");
     } else {
         assert!(document == made, "the table is another: SUPEL_UPDATE_DOCS=1 writes it");
     }
+    made
+}
+
+#[test]
+fn documentation_has_the_table_of_results() {
+    with_table("docs/certify.md", OF_RESULTS);
+}
+
+#[test]
+fn documentation_has_the_table_of_the_catalogue() {
+    let made = with_table("docs/what-the-report-proves.md", CATALOGUE);
     let words = made.replace('`', "").split_whitespace().collect::<Vec<_>>().join(" ");
     for proof in [Proof::Certified, Proof::Measured, Proof::Estimated, Proof::Shown] {
         let definition = format!("**{}**: {}", proof.word(), proof.meaning());

@@ -12,6 +12,8 @@ use crate::superelement::Superelement;
 pub const SUPEL_SINGULAR_MASS: u32 = 1;
 /// The stiffness is the tangent of a preloaded state. No component is made of such a file.
 pub const SUPEL_PRELOADED: u32 = 2;
+/// A bit of `supel_flags`: the superelement was made for statics alone and has no mass; no component can be made of it.
+pub const SUPEL_STIFFNESS_ONLY: u32 = 4;
 
 /// What a check said when the file was made; the later the worse.
 #[repr(C)]
@@ -64,6 +66,7 @@ impl Said {
         let flag = |flag: &Flag| match flag {
             Flag::SingularMass => SUPEL_SINGULAR_MASS,
             Flag::Preloaded => SUPEL_PRELOADED,
+            Flag::StiffnessOnly => SUPEL_STIFFNESS_ONLY,
         };
         Self {
             names: metadata.interface_nodes.iter().map(|node| c_string(&node.name)).collect(),

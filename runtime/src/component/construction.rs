@@ -120,7 +120,7 @@ impl ModalComponent {
             rigid_mass,
             recovery: tensors.recovery.as_ref().map(|recovery| RecoveryMap::new(recovery, &change)),
             loads: load_vectors(superelement, &change),
-            unloaded: superelement.metadata().validity.unloaded.clone(),
+            validity: superelement.metadata().validity.clone(),
             rigid_motion_residual: residual,
             frame_rounding: FrameRounding::new(&frame, &positions),
             damping_is_symmetric,
@@ -152,6 +152,9 @@ fn check_interface(superelement: &Superelement) -> Result<(), ComponentError> {
     let metadata = superelement.metadata();
     if metadata.flags.contains(&Flag::Preloaded) {
         return Err(ComponentError::Preloaded);
+    }
+    if metadata.flags.contains(&Flag::StiffnessOnly) {
+        return Err(ComponentError::NoMass);
     }
     let is_row = |coordinate: &&Coordinate| matches!(coordinate, Coordinate::InterfaceRow { .. });
     let count = metadata.coordinates.iter().filter(is_row).count();

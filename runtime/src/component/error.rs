@@ -19,6 +19,11 @@ pub enum ComponentError {
         "the superelement is preloaded: its stiffness resists rotations as the preload of one direction in space does, which large motion turns; use it in linear analyses, or reduce the component without preload"
     )]
     Preloaded,
+    /// The superelement has no mass.
+    #[error(
+        "the superelement was made for statics alone and has no mass; reduce the component for another analysis than `static`"
+    )]
+    NoMass,
     /// Part of the interface are bare rows. It is not known what they displace.
     #[error(
         "{count} interface coordinates are rows without a node; large motion needs positions and six dofs: give the nodes' coordinates and reduce again"
@@ -185,6 +190,14 @@ pub enum EvaluationError {
         node: usize,
         /// Direction, turned with the node.
         direction: Direction,
+    },
+    /// Gravity along what the superelement was not made for.
+    #[error(
+        "gravity along ({}, {}, {}) of the model, of which the superelement was told that it does not act; reduce it for a scene with that gravity", along[0], along[1], along[2]
+    )]
+    GravityNotTold {
+        /// The acceleration, in axes of the model.
+        along: [f64; 3],
     },
     /// A load that the file does not carry.
     #[error("load {load} (from 0) of the file; it carries {n_loads}")]

@@ -96,10 +96,11 @@ impl ModalComponent {
     fn check_gravity(&self, g: &Vector3, workspace: &Workspace) -> Result<(), EvaluationError> {
         workspace.check_component(self)?;
         workspace.check_state()?;
-        match g.iter().position(|value| !value.is_finite()) {
-            Some(index) => Err(EvaluationError::NotFinite { what: "acceleration of gravity", index }),
-            None => Ok(()),
+        if let Some(index) = g.iter().position(|value| !value.is_finite()) {
+            return Err(EvaluationError::NotFinite { what: "acceleration of gravity", index });
         }
+        let along = transposed_times_3(&workspace.floating_frame.rotation, g);
+        if self.validity.allows_gravity(along) { Ok(()) } else { Err(EvaluationError::GravityNotTold { along }) }
     }
 
     /// The forces of gravity, with Ĝ a in the place of the product.

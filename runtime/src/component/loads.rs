@@ -112,7 +112,7 @@ impl ModalComponent {
             &transposed_times_3(&motion.rotation, &load.force),
             &transposed_times_3(&motion.rotation, &load.moment),
         );
-        for &InterfaceDof { node, direction } in self.unloaded.iter().filter(|dof| dof.node == load.node) {
+        for &InterfaceDof { node, direction } in self.validity.unloaded.iter().filter(|dof| dof.node == load.node) {
             let largest = |part: &[f64]| part.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
             let (force, moment) = (largest(&in_node[..3]), largest(&in_node[3..]));
             let lever = self.frame_rounding.extent;

@@ -9,7 +9,7 @@ use super::load_map::LoadVectors;
 use super::measures::Measures;
 use super::recovery_map::RecoveryMap;
 use super::weight::Weight;
-use crate::metadata::InterfaceDof;
+use crate::metadata::Validity;
 use crate::motion::{Matrix6, Vector3, Vector6};
 
 /// A superelement in large motion; see the [module page](super).
@@ -41,7 +41,7 @@ pub struct ModalComponent {
     pub(super) damping_is_symmetric: bool,
     pub(super) damping_acts_on: ActsOn,
     pub(super) loads: LoadVectors,
-    pub(super) unloaded: Vec<InterfaceDof>,
+    pub(super) validity: Validity,
     pub(super) recovery: Option<RecoveryMap>,
     pub(super) rigid_motion_residual: f64,
 }

@@ -44,6 +44,33 @@ fn gravity_forces_are_the_gradient_of_the_potential() {
     }
 }
 
+/// A superelement that was made for gravity along one axis of its own, or for none, is refused under any other.
+#[test]
+fn gravity_that_the_superelement_was_not_made_for_is_refused() {
+    let made_for = |along: Option<[f64; 3]>| {
+        let (tensors, mut metadata, _) = beam::reduced_parts(&beam::arc_nodes(), &beam::SOFT, &[0, 8], 2);
+        metadata.validity.gravity = along;
+        component(&Superelement::new(tensors, metadata).expect("the parts fit"))
+    };
+    // (1, 0, −1) in axes of the component, of any length and either sign.
+    let along = made_for(Some([1e-200, 0.0, -1e-200]));
+    let situation = Situation::random(&along, 0.1, 7);
+    let mut workspace = situation.evaluated(&along);
+    let turned = |g: [f64; 3]| supel_runtime::motion::times_3(&workspace.floating_frame().rotation, &g);
+    let (told, other, near) = (turned([-3.0, 0.0, 3.0]), turned([0.0, 9.81, 0.0]), turned([3.0, 0.02, -3.0]));
+    assert!(along.gravity_forces(&told, &mut workspace).is_ok() && along.gravity_forces(&near, &mut workspace).is_ok());
+    let refused = along.gravity_forces(&other, &mut workspace).map(<[f64]>::to_vec);
+    assert!(matches!(refused, Err(EvaluationError::GravityNotTold { along }) if (along[1] - 9.81).abs() < 1e-12));
+    assert!(along.gravity_potential(&other, &workspace).is_err());
+    assert!(along.add_gravity_stiffness(&other, &mut workspace, &mut [0.0; 14 * 14]).is_err());
+    assert!(along.gravity_forces(&[0.0; 3], &mut workspace).is_ok(), "without gravity");
+    for (component, is_refused) in [(made_for(Some([0.0; 3])), true), (made_for(None), false)] {
+        let mut workspace = Situation::random(&component, 0.1, 7).evaluated(&component);
+        assert_eq!(component.gravity_forces(&G, &mut workspace).is_err(), is_refused);
+        assert!(component.gravity_forces(&[0.0; 3], &mut workspace).is_ok());
+    }
+}
+
 /// −m gᵀ(R c + u) wherever the component is.
 #[test]
 fn the_potential_is_that_of_the_weight_at_the_centre_of_mass() {

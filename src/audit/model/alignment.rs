@@ -60,15 +60,19 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
     for columns in groups(&projected.named, freedom.groups) {
         let slots: Vec<usize> = (0..n_eta).filter(|slot| columns.contains(&freedom.kept[*slot])).collect();
         match projected.named[columns[0]] {
-            named @ (Named::Relief(_) | Named::Expansion(_) | Named::Residual(_)) => {
+            // Next to an interface rigid-body modes are those of Û, as inertia relief answers them.
+            named
+                if matches!(named, Named::Relief(_) | Named::Expansion(_) | Named::Residual(_))
+                    || is_of_motion(named, p) =>
+            {
                 let n = columns.len();
                 // The load of a residual vector leaves nothing of it free, nor do the inertia forces of a given mode.
-                let relief = freedom.relief.clone().filter(|_| matches!(named, Named::Relief(_)));
+                let relief = freedom.relief.clone().filter(|_| matches!(named, Named::Relief(_) | Named::Rigid(_)));
                 let all = relief.unwrap_or_else(|| Mat::identity(n, n));
                 let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
                 place(&mut turned, (&columns, &slots), dense::columns(all.as_ref(), &numbers).as_ref());
             }
-            Named::Rigid(_) | Named::Mode(_) => {
+            _ => {
                 let [mine, files] =
                     [(&seen[0], &columns), (&seen[1], &slots)].map(|(a, at)| dense::columns(a.as_ref(), at));
                 let noise: Vec<f64> = slots.iter().map(|slot| noise[*slot]).collect();
@@ -99,6 +103,11 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
         columns: with_probes(Mat::identity(p, p), &turned),
         amplified: with_probes(Mat::zeros(p, p), &amplified),
     })
+}
+
+/// Whether a column is what static modes leave of a rigid-body mode.
+fn is_of_motion(named: Named, n_probes: usize) -> bool {
+    matches!(named, Named::Rigid(_)) && n_probes > 0
 }
 
 impl Combination {

@@ -67,8 +67,10 @@ pub(super) struct Columns {
 pub(super) struct Motions<'a> {
     /// Motions that the constraint modes are made to carry.
     pub(super) carried: &'a RigidBodyModes,
-    /// Motions that inertia relief answers: as many as there are zero modes.
+    /// Motions that inertia relief answers.
     pub(super) relieved: MatRef<'a, f64>,
+    /// The number of each among the zero modes.
+    pub(super) numbers: &'a [usize],
     /// Where those come from: by the coordinates they are exact, and rounding turns zero modes of K.
     pub(super) source: RigidSource,
 }
@@ -96,7 +98,7 @@ impl Columns {
     ) -> Self {
         let (n_i, p, n_modes) = (partition.n_internal, probes.ncols(), asked.modes.count());
         let n_relief = motions.relieved.ncols();
-        let relief = (0..n_relief).map(Named::Relief);
+        let relief = motions.numbers.iter().copied().map(Named::Relief);
         let loads = partition.loads.facts.iter().enumerate().filter(|(_, load)| load.has_residual_vector);
         let residual = loads.map(|(load, _)| Named::Residual(load));
         let expansion = (0..partition.expansion.count()).map(Named::Expansion);

@@ -6,7 +6,7 @@ use supel_runtime::Superelement;
 use super::alignment::Combination;
 use super::bilinear::Bilinear;
 use super::columns::Named;
-use super::entries::{self, Kind, compared, rows, statics};
+use super::entries::{self, Kind, Order, compared, rows, statics};
 use super::projection::{Form, Projected, Rows};
 use super::scaled::Scaled;
 use crate::audit::content::coordinate_name;
@@ -39,12 +39,14 @@ impl Comparison<'_> {
             stiffness.matrix.fill(0.0);
         }
         let (k, m) = (self.mixed(file.k.as_ref()), self.mixed(file.m.as_ref()));
-        let mut checks = vec![
-            compared(k.as_ref(), &stiffness, (Kind::Energy, p), &name),
-            compared(m.as_ref(), &mass, (Kind::Inertia, p), &name),
-        ];
+        let of_stiffness = (Kind::Energy, projected.n_in_equilibrium());
+        let mut checks = vec![compared(k.as_ref(), &stiffness, of_stiffness, &name)];
+        if file.has_mass {
+            checks.push(compared(m.as_ref(), &mass, (Kind::Inertia, 0), &name));
+        }
         if p > 0 {
-            checks.push(statics(k.as_ref(), [&stiffness, &mass], *first, p)?);
+            let order = if projected.n_in_equilibrium() == p { Order::Second } else { Order::First };
+            checks.push(statics(k.as_ref(), [&stiffness, &mass], *first, (p, order))?);
         }
         if let (Some(expected), Some(stored)) = (&projected.gravity, &file.gravity) {
             let words = ("M-18", "loads of gravity are those of the full model", "max |g − ΨᵀMe|_i / (√M̂_ii √m)");
@@ -73,6 +75,10 @@ impl Comparison<'_> {
     /// The energies, but of named rigid-body motions, which cost nothing in a file: what they have by K is the rounding of its digits.
     fn without_rigid_energy(&self) -> Form {
         let (mut form, p) = (self.projected.stiffness.clone(), self.projected.n_probes());
+        if p > 0 {
+            // What static modes leave of a rigid-body motion has the energy of these.
+            return form;
+        }
         let is_rigid = |named: &Named| matches!(named, Named::Rigid(_));
         for (at, _) in self.projected.named.iter().enumerate().filter(|(_, named)| is_rigid(named)) {
             form.matrix.row_mut(p + at).fill(0.0);

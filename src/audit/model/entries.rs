@@ -72,7 +72,7 @@ impl Worst {
 
 /// How the errors of two columns enter an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Order {
+pub(super) enum Order {
     /// Each by itself, times the other column.
     First,
     /// As a product: the entry is stationary.
@@ -178,7 +178,12 @@ pub(super) fn bilinear(found: MatRef<'_, f64>, expected: &Bilinear, name: &dyn F
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.
-pub(super) fn statics(found: MatRef<'_, f64>, forms: [&Form; 2], first: f64, p: usize) -> Result<Check> {
+pub(super) fn statics(
+    found: MatRef<'_, f64>,
+    forms: [&Form; 2],
+    first: f64,
+    (p, order): (usize, Order),
+) -> Result<Check> {
     /// Share of the energy in that of K̂_BB + λ₁M̂_BB below which a motion is that of a rigid body.
     const RIGID: f64 = 1e-6;
     let [energy, inertia] = forms;
@@ -195,7 +200,12 @@ pub(super) fn statics(found: MatRef<'_, f64>, forms: [&Form; 2], first: f64, p: 
                 (0..p).map(of_row).sum::<f64>().sqrt()
             };
             let error = |column: usize| (0..p).map(|row| (x[(row, column)] * energy.errors[row]).abs()).sum::<f64>();
-            let bound = BOTH * (f64::EPSILON * size(i) * size(j) + error(i) * error(j));
+            let of_errors = match order {
+                // The energy of each by itself is no more than its share.
+                Order::First => error(i) * share_j.sqrt() + share_i.sqrt() * error(j),
+                Order::Second => 0.0,
+            };
+            let bound = BOTH * (f64::EPSILON * size(i) * size(j) + error(i) * error(j) + of_errors);
             worst.take((i, j), (image[(i, j)].abs(), bound, (share_i * share_j).sqrt()));
         }
     }

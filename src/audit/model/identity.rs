@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job};
 use crate::partition::{DofOrigin, Frame, InterfaceNode, OF_THE_MODEL, Partition, ReducedDof};
+use crate::plan::{Mass, Plan};
 use crate::verification::check::{Check, Limits};
 
 /// M-26: digests of the inputs. Other files may hold the same matrices, which the other checks tell.
@@ -223,10 +224,10 @@ pub(super) fn dropped(
 /// M-26: all that the file says of itself is what a reduction by the job makes.
 pub(super) fn statements(
     superelement: &Superelement,
-    (partition, job): (&Partition, &Job),
+    (partition, plan): (&Partition, &Plan),
     motions: &KnownMotions,
 ) -> Check {
-    let (metadata, tensors) = (superelement.metadata(), superelement.tensors());
+    let (metadata, tensors, job) = (superelement.metadata(), superelement.tensors(), plan.job());
     let mut flaws = Vec::new();
     let mut expect = |holds: bool, what: &str| {
         if !holds {
@@ -239,19 +240,22 @@ pub(super) fn statements(
     expect(metadata.model.n_dofs == partition.model.n_moving() as u64, "another number of degrees of freedom");
     let rigid = if motions.is_geometric() { RigidBodyModes::Geometric } else { RigidBodyModes::Algebraic };
     expect(metadata.model.rigid_body_modes == rigid, "rigid-body modes of another kind");
-    let is_of_a_body = motions.is_of_a_body() && partition.held.count() == 0;
+    let is_of_a_body = plan.mass() == Mass::Reduced && motions.is_of_a_body() && partition.held.count() == 0;
     expect(metadata.model.mass_properties.is_some() == is_of_a_body, "mass properties");
-    expect(tensors.gravity.is_some() == (motions.is_classical() || partition.gravity.is_some()), "gravity");
+    let has_mass = plan.mass() == Mass::Reduced;
+    let has_gravity = has_mass && (motions.is_classical() || partition.gravity.is_some());
+    expect(tensors.gravity.is_some() == has_gravity, "gravity");
     expect(tensors.damping.is_some() == job.has_damping(), "damping");
     let matrices = partition.matrices.iter().map(|carried| carried.facts.in_file());
     expect(metadata.matrices.iter().cloned().eq(matrices), "further matrices");
     let names = partition.loads.facts.iter().map(|load| &load.name);
     expect(metadata.load_names.iter().eq(names), "loads");
     expect(metadata.quantities == partition.quantities.names, "quantities");
-    expect(metadata.flags == flags(superelement, Some(job)), "flags");
+    expect(metadata.flags == flags(superelement, Some(plan)), "flags");
     expect(metadata.modes_held == partition.modes_held(), "other dofs held for the modes");
-    expect(metadata.validity.assumptions == job.assumptions(), "assumptions about the simulation");
+    expect(metadata.validity.assumptions == plan.assumptions(), "assumptions about the simulation");
     expect(metadata.validity.unloaded.is_empty(), "unloaded directions");
+    expect(metadata.validity.gravity == plan.gravity(), "another direction of gravity");
     expect(metadata.validity.band_hz == band(superelement, job), "another band");
     let asked = job.write.recovery.as_ref().map(|recovery| recovery.precision);
     let recovery = tensors.recovery.as_ref();
@@ -265,6 +269,8 @@ pub(super) fn statements(
         let n = partition.recovered.rows.len();
         expect(n_alike == n && recovery.dofs().len() == n, "recovered degrees of freedom");
         expect(recovery.positions() == partition.recovered.positions.as_deref(), "positions of recovered nodes");
+        let faces = partition.recovered.faces.as_ref().filter(|faces| faces.count() > 0);
+        expect(recovery.faces() == faces, "faces between recovered nodes");
     }
     flaw(
         "it says of itself what the job makes",

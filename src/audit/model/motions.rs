@@ -31,10 +31,21 @@ pub(super) struct KnownMotions {
     meaning: Meaning,
     /// Whether they move one mass with one centre.
     is_of_a_body: bool,
+    /// Whether the interface tells them apart.
+    pub(super) sight: Sight,
     /// Rounding of K relative to the first elastic eigenvalue: what a displacement may be off by.
     rounding: f64,
     /// Limits of what zero modes of K differ by from the motions of the coordinates: roundings turn them towards elastic ones.
     of_zero_modes: Limits,
+}
+
+/// Whether an interface tells rigid-body motions apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sight {
+    /// At rest it leaves none of them free.
+    Whole,
+    /// At rest it leaves some of them free.
+    Part,
 }
 
 /// What the rigid-body modes of a file are known by.
@@ -88,6 +99,7 @@ impl KnownMotions {
                 (false, false) => Meaning::Zero,
             },
             is_of_a_body: given.is_classical && is_of_a_body(given.rigid_body_mass(&partition.mass).as_ref()),
+            sight: Sight::Whole,
             rounding,
             of_zero_modes: match partition.has_few_digits() {
                 true => Limits { engineering: 1e-9, arithmetic: rounding, data: turn },
@@ -151,7 +163,7 @@ impl KnownMotions {
     /// M-05: Û moves the interface as zero modes of the full model do, and as the coordinates say; M-16: and has their inertia.
     pub(super) fn checks(&self, file: &Scaled) -> Vec<Check> {
         let mut checks: Vec<Check> = self.unit.iter().flat_map(|unit| unit.checks(file)).collect();
-        if self.n_zero == 0 || file.n_b == 0 {
+        if self.n_zero == 0 || file.n_b == 0 || self.sight == Sight::Part {
             return checks;
         }
         let (combination, left) = self.combination(file);
@@ -165,6 +177,9 @@ impl KnownMotions {
             fail_above: limits.value().max(1e-6),
             worst: None,
         });
+        if !file.has_mass {
+            return checks;
+        }
         // QᵀMQ = I, so that U = Q A has the inertia AᵀA.
         let inertia = dense::gram(combination.as_ref(), combination.as_ref());
         let (value, worst) = difference(&file.m_f, &inertia);
@@ -203,6 +218,9 @@ impl UnitMotions {
             fail_above: 10.0 * SAME_COORDINATES,
             worst: worst.1,
         };
+        if !file.has_mass {
+            return vec![of_coordinates];
+        }
         let (value, worst) = difference(&file.m_f, &self.mass);
         let share = |j: usize| self.terms[j] / self.mass[(j, j)];
         let terms = (0..self.terms.len()).map(share).fold(1.0, f64::max);

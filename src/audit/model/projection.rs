@@ -141,6 +141,14 @@ impl Projected {
         self.modal_mass.as_ref().unwrap_or(&self.mass)
     }
 
+    /// How many of the first columns leave the interior in equilibrium: none of Rubin's static modes, which rigid-body modes stand next to.
+    pub(super) fn n_in_equilibrium(&self) -> usize {
+        match self.named.iter().any(|named| matches!(named, Named::Rigid(_))) {
+            true => 0,
+            false => self.n_probes(),
+        }
+    }
+
     /// p.
     pub(super) fn n_probes(&self) -> usize {
         self.probes.ncols()
@@ -162,6 +170,15 @@ impl Projected {
             if length > 0.0 { self.stiffness.errors[at] / length } else { 0.0 }
         };
         (0..self.named.len()).filter(|column| is_answer(&self.named[*column])).map(share).fold(0.0, f64::max)
+    }
+
+    /// The largest rounding of the inertia of a named column, relative to it.
+    pub(super) fn rounding_of_inertia(&self) -> f64 {
+        let share = |column: usize| {
+            let at = self.n_probes() + column;
+            self.mass.terms[at].powi(2) / self.mass.matrix[(at, at)].max(f64::MIN_POSITIVE)
+        };
+        f64::EPSILON * (0..self.named.len()).map(share).fold(0.0, f64::max)
     }
 
     /// Length of a named column in the mass; that of the mode it is made of is one.

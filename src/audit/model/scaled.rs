@@ -3,13 +3,16 @@
 use faer::Mat;
 use supel_runtime::{Coordinate, Matrix, Precision, Superelement};
 
+use crate::audit::content::{has_mass, unit_mass};
 use crate::dense::unpacked;
 use crate::partition::{CarriedMatrix, Partition};
 
 /// K̂, M̂, Û and all the rest as the stages of the model see them.
 pub(super) struct Scaled {
     pub(super) k: Mat<f64>,
+    /// M̂; the diagonal of K̂ where the file has no mass.
     pub(super) m: Mat<f64>,
+    pub(super) has_mass: bool,
     pub(super) u: Mat<f64>,
     pub(super) m_f: Mat<f64>,
     /// 3 × r.
@@ -38,6 +41,7 @@ impl Scaled {
         let of = |i: usize| if i < n_b { 1.0 } else { shape };
         let both =
             |a: Mat<f64>, unit: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / (unit * of(i) * of(j)));
+        let (has_mass, k) = (has_mass(superelement), both(unpacked(&tensors.stiffness), units.stiffness_unit()));
         let mut m_f = unpacked(&tensors.rigid_body_mass);
         m_f *= faer::Scale(1.0 / units.mass_unit());
         let gravity = tensors.gravity.as_ref();
@@ -56,8 +60,12 @@ impl Scaled {
         let coordinates = &superelement.metadata().coordinates[n_b..];
         let mixing = tensors.mixing.as_ref().map(unpacked);
         Self {
-            k: both(unpacked(&tensors.stiffness), units.stiffness_unit()),
-            m: both(unpacked(&tensors.mass), units.mass_unit()),
+            m: match has_mass {
+                true => both(unpacked(&tensors.mass), units.mass_unit()),
+                false => unit_mass(&k),
+            },
+            k,
+            has_mass,
             u: {
                 let u = &tensors.rigid_body_modes;
                 Mat::from_fn(u.rows(), u.cols(), |i, j| u[(i, j)] * of(i))

@@ -5,29 +5,11 @@
 //! are not read.
 
 use super::dataset::Dataset;
-use super::faces::{Cell, Gathered, Shape};
 use super::group::Group;
 use crate::error::{Error, Result};
+use crate::input::cell_kind::{Kind, Known};
+use crate::input::faces::{Cell, Gathered};
 use crate::number::counted;
-
-/// What a format calls a kind of cell.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// One with faces.
-    Faced(Cell),
-    /// Points and lines, which have none.
-    Faceless,
-    /// Anything else.
-    Unknown,
-}
-
-/// Whether all cells of a mesh are of kinds that are known.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Known {
-    All,
-    /// What the mesh has that is not read, in words.
-    Not(String),
-}
 
 /// The groups of `kinds` with what each of them holds by `kind_of` its name, or the one that is unknown.
 pub(super) fn known_groups<'a>(
@@ -45,11 +27,6 @@ pub(super) fn known_groups<'a>(
         }
     }
     Ok(Ok(known))
-}
-
-/// The kind of a shape with so many nodes.
-pub(super) fn kind(shape: Shape, n_nodes: usize) -> Kind {
-    Cell::new(shape, n_nodes).map_or(Kind::Unknown, Kind::Faced)
 }
 
 /// Takes up cells from the numbers of their nodes; `position` tells where node k of cell c stands, `first` is the number of the first

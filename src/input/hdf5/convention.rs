@@ -1,9 +1,9 @@
 //! How a group stores a sparse matrix, and reading it.
 
 use super::attribute;
-use super::compressed::{Compressed, Major};
 use super::group::{Group, Member};
 use crate::error::{Error, Result};
+use crate::input::compressed::{Compressed, Major};
 
 /// How a group stores a sparse matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +14,29 @@ pub(super) enum Convention {
     ShapeAttribute(&'static str),
     /// `data`, `indices`, `indptr`, with the shape in a dataset `shape` or, without one, square.
     ShapeDataset,
+    /// Datasets of these names.
+    Named(NamedParts),
 }
+
+/// Names of the parts of compressed columns or rows, one dataset each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct NamedParts {
+    /// Pointers, indices, values.
+    parts: [&'static str; 3],
+    /// Rows and columns; none for a square matrix.
+    sizes: Option<[&'static str; 2]>,
+    /// The first index.
+    base: i64,
+    /// Whether columns are compressed, not rows or either.
+    tells_columns: bool,
+}
+
+/// Octave, Julia (a group with the fields of `SparseMatrixCSC`) and Binsparse.
+const NAMED: [NamedParts; 3] = [
+    NamedParts { parts: ["cidx", "ridx", "data"], sizes: Some(["nr", "nc"]), base: 0, tells_columns: true },
+    NamedParts { parts: ["colptr", "rowval", "nzval"], sizes: Some(["m", "n"]), base: 1, tells_columns: true },
+    NamedParts { parts: ["pointers_to_1", "indices_1", "values"], sizes: None, base: 0, tells_columns: false },
+];
 
 impl Convention {
     /// The convention of a group, judged by the names of its attributes and members.
@@ -28,6 +50,11 @@ impl Convention {
             return Ok(Some(Self::ShapeAttribute("h5sparse_shape")));
         }
         let has_dataset = |name: &str| members.iter().any(|(n, m)| n == name && *m != Member::Group);
+        let has_all =
+            |parts: &NamedParts| parts.parts.iter().chain(parts.sizes.iter().flatten()).all(|name| has_dataset(name));
+        if let Some(named) = NAMED.into_iter().find(has_all) {
+            return Ok(Some(Self::Named(named)));
+        }
         if !["data", "indices", "indptr"].into_iter().all(has_dataset) {
             return Ok(None);
         }
@@ -36,13 +63,18 @@ impl Convention {
 
     /// Whether a file of this convention says if rows or columns are compressed.
     pub(super) fn tells_rows_from_columns(self) -> bool {
-        matches!(self, Self::Matlab)
+        match self {
+            Self::Matlab => true,
+            Self::Named(parts) => parts.tells_columns,
+            Self::ShapeAttribute(_) | Self::ShapeDataset => false,
+        }
     }
 
     /// Reads the group, and the digits its values are stored with.
     pub(super) fn read(self, group: &Group<'_>) -> Result<(Compressed, u32)> {
         match self {
             Self::Matlab => read_matlab(group),
+            Self::Named(parts) => read_named(group, parts),
             Self::ShapeAttribute(name) => read_compressed(group, shape_attribute(group, name)?),
             Self::ShapeDataset => {
                 let shape = group.find_dataset("shape")?.map(|d| d.integers()).transpose()?;
@@ -67,6 +99,33 @@ fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
     let names = ["jc", "ir", "data"].map(|name| group.child_name(name));
     let shape = [n_rows, n_cols];
     Ok((Compressed::new(Major::Columns, shape, pointers, indices, values, names), digits))
+}
+
+fn read_named(group: &Group<'_>, named: NamedParts) -> Result<(Compressed, u32)> {
+    let [pointers, indices, values] = named.parts;
+    let from_zero = |name: &str| -> Result<Vec<i64>> {
+        let numbers = group.dataset(name)?.integers()?;
+        Ok(if named.base == 0 {
+            numbers
+        } else {
+            numbers.iter().map(|number| number.saturating_sub(named.base)).collect()
+        })
+    };
+    let size = |name: &str| -> Result<u64> {
+        let sizes = counts(group.dataset(name)?.integers()?);
+        Ok(sizes.first().copied().unwrap_or(u64::MAX))
+    };
+    let of_parts = [from_zero(pointers)?, from_zero(indices)?];
+    let n_major = of_parts[0].len().saturating_sub(1) as u64;
+    let shape = match named.sizes {
+        Some([rows, columns]) => [size(rows)?, size(columns)?],
+        None => [n_major; 2],
+    };
+    let reals = group.dataset(values)?.reals()?;
+    let names = named.parts.map(|name| group.child_name(name));
+    let major = if named.tells_columns { Major::Columns } else { Major::Rows };
+    let [pointers, indices] = of_parts;
+    Ok((Compressed::new(major, shape, pointers, indices, reals.values, names), reals.digits))
 }
 
 /// Whether rows or columns are compressed stands in a text that is not read (see [`attribute`]); stiffness and mass are symmetric, for

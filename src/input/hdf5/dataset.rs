@@ -2,6 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use hdf5_metno::H5Type;
 use hdf5_metno::dataset::Layout;
 use hdf5_metno::filters::Filter;
 use hdf5_metno::types::{IntSize, TypeDescriptor};
@@ -34,6 +35,11 @@ impl<'a> Dataset<'a> {
         &self.name
     }
 
+    /// The file.
+    pub(super) fn path(&self) -> &std::path::Path {
+        self.h5.path()
+    }
+
     /// Extents of the dataset; empty for a single value.
     pub(super) fn shape(&self) -> Result<Vec<usize>> {
         Ok(self.dataset.space().map_err(|e| self.read_error(&e))?.shape())
@@ -61,6 +67,27 @@ impl<'a> Dataset<'a> {
         numbers::integers(&self.dataset).map_err(|e| self.refused(e, "whole numbers"))
     }
 
+    /// Whether its values are whole numbers.
+    pub(super) fn is_whole(&self) -> bool {
+        matches!(numbers::descriptor(&self.dataset), Ok(TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_)))
+    }
+
+    /// All records, of exactly this layout.
+    pub(super) fn records<T: H5Type>(&self) -> Result<Vec<T>> {
+        if self.checked_len()? == 0 {
+            return Ok(Vec::new());
+        }
+        numbers::read(&self.dataset).map_err(|e| self.refused(e, "records of MSC Nastran"))
+    }
+
+    /// All records of these fields, with texts that end as they may.
+    pub(super) fn records_with_text<T: H5Type>(&self) -> Result<Vec<T>> {
+        if self.checked_len()? == 0 {
+            return Ok(Vec::new());
+        }
+        numbers::read_with_text(&self.dataset).map_err(|e| self.refused(e, "records of MSC Nastran"))
+    }
+
     /// A table of names of 80 characters each: padded with blanks or ended by a zero byte.
     pub(super) fn names(&self) -> Result<Vec<String>> {
         if self.checked_len()? == 0 {
@@ -76,6 +103,20 @@ impl<'a> Dataset<'a> {
             Err(refusal) => Err(refusal),
         };
         read.map_err(|e| self.refused(e, "names of 80 characters"))
+    }
+
+    /// A table of characters, a row for each name; empty where characters are stored in another way.
+    pub(super) fn short_names(&self) -> Result<Vec<String>> {
+        let shape = self.shape()?;
+        let (&[_, length], Ok(TypeDescriptor::FixedAscii(1))) = (&shape[..], numbers::descriptor(&self.dataset)) else {
+            return Ok(Vec::new());
+        };
+        self.checked_len()?;
+        let read = numbers::characters(&self.dataset).map_err(|e| self.refused(e, "characters"))?;
+        Ok(read
+            .chunks(length)
+            .map(|name| text_of(&name.iter().map(|c| c.cast_signed()).collect::<Vec<i8>>()))
+            .collect())
     }
 
     /// The error for a dataset of the wrong length.

@@ -1,23 +1,67 @@
 //! `.hmf`: XDMF's model written into HDF5 itself, the self-contained format of meshio.
 
-use super::cells::Known;
+use std::collections::BTreeMap;
+
+use super::attribute_groups::tags_of;
 use super::dataset::Dataset;
-use super::faces::Gathered;
 use super::group::{Group, Member};
 use super::mesh::{Mesh, points_of_rows};
 use crate::error::Result;
+use crate::input::cell_kind::Known;
+use crate::input::faces::Gathered;
+use crate::input::mesh::named_apart;
+use crate::input::tag_groups::tag_groups;
 
-const GEOMETRY: &str = "domain/grid/Geometry";
+const GRID: &str = "domain/grid";
 
 /// Whether a file has the dataset that makes it one of this format.
 pub(super) fn is_of(root: &Group<'_>) -> Result<bool> {
-    Ok(root.member("domain")? == Some(Member::Group) && root.find_dataset(GEOMETRY)?.is_some())
+    let has_domain = root.member("domain")? == Some(Member::Group);
+    Ok(has_domain && root.find_dataset(&format!("{GRID}/Geometry"))?.is_some())
 }
 
-/// Reads the geometry, one row for each node.
+/// Reads the geometry, one row for each node, and the groups that arrays of whole numbers make.
 pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
-    let geometry: Dataset<'_> = root.dataset(GEOMETRY)?;
-    Ok(Mesh::of_points(points_of_rows(&geometry)?, geometry.name().to_owned()))
+    let grid = root.group(GRID)?;
+    let geometry: Dataset<'_> = grid.dataset("Geometry")?;
+    let coordinates = points_of_rows(&geometry)?;
+    let n_nodes = coordinates.len();
+    let of_nodes = tags_of(grid.find_group("NodeAttributes")?)?;
+    let of_nodes = of_nodes.iter().filter(|(_, tags)| tags.len() == n_nodes);
+    let of_nodes = of_nodes.flat_map(|(name, tags)| tag_groups(name, tags)).collect();
+    let of_cells = tags_of(grid.find_group("CellAttributes")?)?;
+    let of_cells = if of_cells.is_empty() { BTreeMap::new() } else { cell_groups(&grid, &of_cells, n_nodes)? };
+    let groups = named_apart(of_nodes, [("elements", of_cells)]);
+    Ok(Mesh { labels: None, coordinates, source: geometry.name().to_owned(), groups })
+}
+
+/// The nodes of the cells of each group. Cells are numbered through all tables, in the order of the numbers in their names.
+fn cell_groups(
+    grid: &Group<'_>,
+    tags: &BTreeMap<String, Vec<i64>>,
+    n_nodes: usize,
+) -> Result<BTreeMap<String, Vec<usize>>> {
+    let members = grid.members()?;
+    let number = |name: &str| name.strip_prefix("Topology").and_then(|number| number.parse::<usize>().ok());
+    let mut tables: Vec<usize> = members.iter().filter_map(|(name, _)| number(name)).collect();
+    tables.sort_unstable();
+    let mut nodes_of: Vec<Vec<usize>> = Vec::new();
+    for table in tables {
+        let dataset = grid.dataset(&format!("Topology{table}"))?;
+        let n_each = dataset.shape()?.get(1).copied().unwrap_or(1).max(1);
+        let numbers = dataset.integers()?;
+        let index = |(position, number): (usize, &i64)| dataset.checked_index(position, *number, 0, n_nodes);
+        let indices = numbers.iter().enumerate().map(index).collect::<Result<Vec<usize>>>()?;
+        nodes_of.extend(indices.chunks(n_each).map(<[usize]>::to_vec));
+    }
+    let of_all = tags.iter().filter(|(_, tags)| tags.len() == nodes_of.len());
+    let groups = of_all.flat_map(|(name, tags)| tag_groups(name, tags)).map(|(name, cells)| {
+        let mut nodes: Vec<usize> = cells.into_iter().flat_map(|cell| nodes_of[cell].iter().copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        (name, nodes)
+    });
+    Ok(groups.collect())
 }
 
 /// The kinds of cells are texts of attributes, which are not read.

@@ -1,11 +1,11 @@
 //! The layouts of meshes in HDF5, one line each; the content tells which one a file has.
 
-use super::cells::Known;
-use super::faces::Gathered;
 use super::group::{Group, Member};
 use super::mesh::Mesh;
-use super::{hmf, med, med_cells, moab, moab_cells};
+use super::{cgns, exodus, hmf, med, med_cells, moab, moab_cells, vtkhdf};
 use crate::error::{Error, Result};
+use crate::input::cell_kind::Known;
+use crate::input::faces::Gathered;
 
 /// A layout of a mesh in HDF5.
 pub(super) struct Layout {
@@ -17,9 +17,12 @@ pub(super) struct Layout {
 }
 
 /// The layouts, the more particular first.
-const LAYOUTS: [Layout; 3] = [
+const LAYOUTS: [Layout; 6] = [
     Layout { is_of: |root| has_group(root, "ENS_MAA"), nodes: med::read, cells: med_cells::read },
     Layout { is_of: |root| has_group(root, "tstt"), nodes: moab::read, cells: moab_cells::read },
+    Layout { is_of: |root| has_group(root, "VTKHDF"), nodes: vtkhdf::read, cells: vtkhdf::read_cells },
+    Layout { is_of: exodus::is_of, nodes: exodus::read, cells: exodus::read_cells },
+    Layout { is_of: cgns::is_of, nodes: cgns::read, cells: cgns::read_cells },
     Layout { is_of: hmf::is_of, nodes: hmf::read, cells: hmf::read_cells },
 ];
 

@@ -1,10 +1,11 @@
 //! Cells of a MED mesh: a group for each kind, with the first node of every cell, then the second, and so on.
 
-use super::cells::{Kind, Known, add, kind, known_groups, unfilled};
-use super::faces::{Gathered, Shape};
+use super::cells::{add, known_groups, unfilled};
 use super::group::Group;
 use super::med;
 use crate::error::Result;
+use crate::input::cell_kind::{Kind, Known, kind};
+use crate::input::faces::{Gathered, Shape};
 
 pub(super) fn read(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
     let step = med::step(&med::mesh(root)?)?;

@@ -1,9 +1,10 @@
 //! Cells of a MOAB file: a group for each kind, with a row of file ids for each cell.
 
-use super::cells::{Kind, Known, add, kind, known_groups};
-use super::faces::{Gathered, Shape};
+use super::cells::{add, known_groups};
 use super::group::Group;
 use crate::error::Result;
+use crate::input::cell_kind::{Kind, Known, kind};
+use crate::input::faces::{Gathered, Shape};
 
 pub(super) fn read(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
     let tstt = root.group("tstt")?;

@@ -7,11 +7,12 @@
 //! the program therefore lets a child process read HDF5 input first.
 
 mod attribute;
+mod attribute_groups;
 mod cells;
-mod compressed;
+mod cgns;
 mod convention;
 mod dataset;
-mod faces;
+mod exodus;
 mod file;
 mod group;
 mod hmf;
@@ -24,17 +25,22 @@ mod moab;
 mod moab_cells;
 mod moab_sets;
 mod modes;
+mod nastran;
+mod nastran_records;
 mod nodes;
 mod numbers;
 mod patch_cells;
 mod search;
 mod sparse;
+mod vtkhdf;
 mod xdmf;
+mod xdmf_attributes;
 mod xdmf_cells;
-mod xml_size;
+mod xdmf_reference;
 
 pub(crate) use file::start;
-pub(crate) use modes::{mode_columns, rehearse_dataset};
+pub(in crate::input) use modes::feminterface_modes;
+pub(crate) use modes::{mode_columns, rehearse_dataset, rehearse_feminterface};
 pub use nodes::read_nodes;
 pub(crate) use nodes::{read_nodes_within, referenced_files};
 pub(crate) use patch_cells::read_faces;

@@ -3,7 +3,7 @@
 //! Its conversions trust the bit layout that a file states for a type, and a damaged one makes them write past their
 //! buffers. So values are read only where the type is exactly one of this machine's, and widened afterwards.
 
-use hdf5_metno::types::{FloatSize, IntSize, TypeDescriptor};
+use hdf5_metno::types::{FixedAscii, FloatSize, IntSize, TypeDescriptor};
 use hdf5_metno::{Container, H5Type};
 
 /// Decimal digits of a 32-bit float.
@@ -78,6 +78,27 @@ pub(super) fn read<T: H5Type>(container: &Container) -> Result<Vec<T>, Refusal> 
         return Err(Refusal::Type(format!("{words} in another byte order or bit layout than this machine's")));
     }
     container.as_reader().no_convert().read_raw::<T>().map_err(Refusal::Library)
+}
+
+/// All values of a type of one byte each that is a character. Only the library knows whether a zero ends or fills up a text; of one byte it
+/// has nothing to convert beyond that byte.
+pub(super) fn characters(container: &Container) -> Result<Vec<u8>, Refusal> {
+    let datatype = container.dtype().map_err(Refusal::Library)?;
+    if datatype.size() != 1 {
+        return Err(Refusal::Type(format!("characters of {} bytes", datatype.size())));
+    }
+    let values = container.as_reader().read_raw::<FixedAscii<1>>().map_err(Refusal::Library)?;
+    Ok(values.iter().map(|value| value.as_bytes().first().copied().unwrap_or(0)).collect())
+}
+
+/// All values of this type, of whose texts the library alone knows how they end: every number must be one of this machine's.
+pub(super) fn read_with_text<T: H5Type>(container: &Container) -> Result<Vec<T>, Refusal> {
+    let datatype = container.dtype().map_err(Refusal::Library)?;
+    let found = datatype.to_descriptor().map_err(|e| Refusal::Type(e.to_string()))?;
+    if found != T::type_descriptor() || datatype.size() != size_of::<T>() {
+        return Err(Refusal::Type(found.to_string()));
+    }
+    container.as_reader().read_raw::<T>().map_err(Refusal::Library)
 }
 
 /// The type of the values.

@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::cells::Known;
-use super::faces::Gathered;
 use super::file::{H5, with_memory};
 use super::group::Group;
 use super::{layout, nodes, xdmf_cells};
 use crate::error::Result;
 use crate::input::Allowance;
+use crate::input::cell_kind::Known;
+use crate::input::faces::Gathered;
 use crate::input::patch::{PatchFaces, Patches};
 
 /// The faces of patches whose nodes are those of the mesh at `path`.

@@ -3,28 +3,12 @@
 use super::convention::Convention;
 use super::group::{Group, Member};
 use crate::error::{Error, Result};
-use crate::input::MatrixRole;
+use crate::input::{MatrixRole, named};
 
 /// Deeper than any real file is nested.
 const MAX_DEPTH: usize = 32;
 /// More objects than any real file with matrices has.
 const MAX_OBJECTS: usize = 100_000;
-
-/// The role that a path in a file states: that of its last component which is a usual name of K or M.
-fn role_stated_by(path: &str) -> Option<MatrixRole> {
-    const STIFFNESS: [&str; 11] =
-        ["k", "ke", "kff", "kaa", "kgg", "kaax", "kmat", "stif", "stiff", "stiffness", "stiffnessmatrix"];
-    const MASS: [&str; 9] = ["m", "me", "mff", "maa", "mgg", "maax", "mmat", "mass", "massmatrix"];
-    path.rsplit('/').find_map(|component| {
-        let name: String = component.chars().filter(char::is_ascii_alphanumeric).collect();
-        let name = name.to_ascii_lowercase();
-        let name = name.as_str();
-        STIFFNESS
-            .contains(&name)
-            .then_some(MatrixRole::Stiffness)
-            .or_else(|| MASS.contains(&name).then_some(MatrixRole::Mass))
-    })
-}
 
 /// The one sparse group below `start` that can be meant: the only one, unless its name says otherwise, or the only one
 /// whose name says `role`.
@@ -35,20 +19,9 @@ pub(super) fn find_matrix<'a>(start: Group<'a>, role: MatrixRole) -> Result<(Gro
     if search.found.is_empty() {
         return Err(Error::Hdf5NoMatrix { path, group: top, holds: search.others });
     }
-    let stated = |g: &Group<'a>| role_stated_by(g.name());
-    let n_stated = search.found.iter().filter(|(g, _)| stated(g) == Some(role)).count();
-    let chosen = match search.found.as_slice() {
-        [(only, _)] if stated(only).is_none_or(|r| r == role) => Some(0),
-        _ if n_stated == 1 => search.found.iter().position(|(g, _)| stated(g) == Some(role)),
-        _ => None,
-    };
-    match chosen {
-        Some(idx) => Ok(search.found.swap_remove(idx)),
-        None => {
-            let groups = search.found.iter().map(|(g, _)| g.name().to_owned()).collect();
-            Err(Error::Hdf5AmbiguousMatrix { path, role: role.name(), groups })
-        }
-    }
+    let names: Vec<&str> = search.found.iter().map(|(group, _)| group.name()).collect();
+    let chosen = named::of_role(&path, &names, role)?;
+    Ok(search.found.swap_remove(chosen))
 }
 
 /// A walk through all groups.
@@ -86,20 +59,5 @@ impl<'a> Search<'a> {
             }
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{MatrixRole, role_stated_by};
-
-    #[test]
-    fn the_last_component_that_is_a_usual_name_states_the_role() {
-        assert_eq!(role_stated_by("/model/K"), Some(MatrixRole::Stiffness));
-        assert_eq!(role_stated_by("/stiffnessMatrix"), Some(MatrixRole::Stiffness));
-        assert_eq!(role_stated_by("/mass_matrix"), Some(MatrixRole::Mass));
-        assert_eq!(role_stated_by("/mass/csr"), Some(MatrixRole::Mass));
-        assert_eq!(role_stated_by("/K/M"), Some(MatrixRole::Mass));
-        assert_eq!(role_stated_by("/kite/masses"), None);
     }
 }

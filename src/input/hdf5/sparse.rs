@@ -6,18 +6,20 @@ use supel_runtime::Symmetry;
 
 use super::convention::Convention;
 use super::file::{H5, with_memory};
+use super::nastran;
 use super::search::find_matrix;
 use crate::error::{Error, Result};
+use crate::input::compressed::Compressed;
 use crate::input::file_start::FileStart;
 use crate::input::further_matrix::first_breach;
 use crate::input::hdf5::group::Group;
 use crate::input::unsupported_format::{self, Wanted};
 use crate::input::{Allowance, MatrixInput, MatrixRole, digits_of};
 use crate::regular_file::digest;
-use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
+use crate::sparse::{ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
 
 /// Reads a square sparse matrix from an HDF5 file: MATLAB v7.3 and PETSc (`MATLAB_sparse`, `jc`, `ir`, `data`), anndata,
-/// h5sparse, Exudyn, or plain `data`, `indices`, `indptr`.
+/// h5sparse, Exudyn, Octave, Julia, Binsparse, the tables of MSC Nastran, or plain `data`, `indices`, `indptr`.
 ///
 /// `group` is the path of the matrix in the file, or of a group below which it lies. Without it the whole file is
 /// searched: the only matrix is taken, or the only one whose name says `role`. Where one triangle is stored it is
@@ -48,23 +50,48 @@ pub(crate) fn read_matrix_within(
 
 fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowance: &Allowance) -> Result<MatrixInput> {
     let h5 = H5::open(path, allowance)?;
-    let start = Group::root(&h5)?.group(group.unwrap_or("/"))?;
-    let stated = if group.is_some() { Convention::of(&start, &start.members()?)? } else { None };
-    let (group, convention) = match stated {
-        Some(convention) => (start, convention),
-        None => find_matrix(start, role)?,
+    let root = Group::root(&h5)?;
+    let found = match nastran::tables(&root)? {
+        Some(tables) => {
+            let (compressed, name) = nastran::read(&tables, group, role)?;
+            Found { compressed, name, digits: u32::MAX, tells_rows_from_columns: true }
+        }
+        None => Found::in_groups(root, group, role)?,
     };
-    let (compressed, stored_digits) = convention.read(&group)?;
-    let digits = digits_of(compressed.values()).at_most(stored_digits);
-    let n = compressed.check(h5.path(), group.name())?;
+    let Found { compressed, name, digits, tells_rows_from_columns } = found;
+    let digits = digits_of(compressed.values()).at_most(digits);
+    let n = compressed.check(h5.path(), &name)?;
     h5.hold((TRIPLET_BYTES + ENTRY_BYTES) * compressed.values().len() as u64 + ROW_BYTES * n as u64)?;
-    let declared = if role == MatrixRole::Further { Declared::Whole } else { Declared::General };
-    let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, declared, h5.path())?;
+    let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, role.undeclared(), h5.path())?;
     // It would be another matrix with its rows taken for columns.
-    let is_ambiguous = role == MatrixRole::Further && !convention.tells_rows_from_columns();
+    let is_ambiguous = role.takes_any() && !tells_rows_from_columns;
     if is_ambiguous && first_breach(&matrix, Symmetry::Symmetric).is_some() {
-        return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: group.name().to_owned() });
+        return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: name });
     }
     h5.keep(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * n as u64)?;
     Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
+}
+
+/// A matrix as its group or table has it.
+struct Found {
+    compressed: Compressed,
+    name: String,
+    /// Digits that its values have room for.
+    digits: u32,
+    tells_rows_from_columns: bool,
+}
+
+impl Found {
+    /// The matrix of a group, by the conventions of the programs that write one.
+    fn in_groups(root: Group<'_>, group: Option<&str>, role: MatrixRole) -> Result<Self> {
+        let start = root.group(group.unwrap_or("/"))?;
+        let stated = if group.is_some() { Convention::of(&start, &start.members()?)? } else { None };
+        let (group, convention) = match stated {
+            Some(convention) => (start, convention),
+            None => find_matrix(start, role)?,
+        };
+        let (compressed, digits) = convention.read(&group)?;
+        let (name, tells_rows_from_columns) = (group.name().to_owned(), convention.tells_rows_from_columns());
+        Ok(Self { compressed, name, digits, tells_rows_from_columns })
+    }
 }

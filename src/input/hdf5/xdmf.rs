@@ -2,19 +2,20 @@
 
 use std::collections::HashSet;
 use std::io::Read;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::file::{H5, with_memory};
 use super::group::Group;
 use super::mesh::{Mesh, points};
-use super::xml_size::refuse_many_names;
+use super::xdmf_attributes::node_groups;
+use super::xdmf_reference::inside_folder;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
 use crate::input::allowance::Claim;
 use crate::input::banner::excerpt;
-use crate::linked;
+use crate::input::xml_size::refuse_many_names;
 use crate::number::counted;
 use crate::regular_file::{self, digest, unchanged};
 
@@ -39,7 +40,11 @@ pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<(Mesh, Option<S
         }
     }
     match geometries.as_slice() {
-        [only] => only.read(path, allowance),
+        [only] => {
+            let (mut mesh, digest) = only.read(path, allowance)?;
+            mesh.groups = node_groups(&document, (path, only.content), mesh.coordinates.len(), allowance)?;
+            Ok((mesh, digest))
+        }
         _ => {
             let quoted = geometries.iter().take(QUOTED);
             let found = quoted.map(|g| excerpt(g.content.trim().as_bytes())).collect();
@@ -178,22 +183,3 @@ impl<'a> Geometry<'a> {
 
 /// Coordinates, where they come from, and the digest of the file they come from where it is another one.
 type Values = (Vec<f64>, String, Option<String>);
-
-/// The file in the folder of the XDMF. Where that was reached through a link in whose folder there is no such file, the one in the
-/// folder of the XDMF itself.
-fn next_to(path: &Path, file: &Path) -> PathBuf {
-    let named = linked::named_folder(path).join(file);
-    let own = || linked::own_folder(path).map(|folder| folder.join(file)).filter(|own| own.exists());
-    if named.exists() { named } else { own().unwrap_or(named) }
-}
-
-/// The file and the path in it, if the reference is `file:/path` and the file lies in the folder of the XDMF or below.
-pub(super) fn inside_folder<'a>(path: &Path, reference: &'a str) -> Option<(PathBuf, &'a str)> {
-    let (file, object) = reference.rsplit_once(":/")?;
-    let file = Path::new(file);
-    let inside = file.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
-    // A backslash or a second colon would leave the folder on some systems.
-    let portable = !reference.contains(['\\']) && !file.to_string_lossy().contains(':');
-    let named = file.file_name().is_some() && !object.is_empty();
-    (inside && portable && named).then(|| (next_to(path, file), object))
-}

@@ -5,14 +5,15 @@ use std::path::Path;
 
 use roxmltree::Node;
 
-use super::cells::{Kind, Known, kind};
-use super::faces::{Cell, Gathered, Shape};
 use super::file::{H5, with_memory};
-use super::xdmf::{inside_folder, parse, text_of};
+use super::xdmf::{parse, text_of};
+use super::xdmf_reference::inside_folder;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
 use crate::input::allowance::Claim;
 use crate::input::banner::excerpt;
+use crate::input::cell_kind::{Kind, Known, kind};
+use crate::input::faces::{Cell, Gathered, Shape};
 use crate::input::hdf5::group::Group;
 use crate::number::counted;
 use crate::regular_file::unchanged;

@@ -55,7 +55,7 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
         ("Held at rest", words::held(&body.model)),
         ("Units", vec![units(&body.model)]),
         ("Stiffness K", vec![matrix(&body.model.stiffness)]),
-        ("Mass M", vec![matrix(&body.model.mass)]),
+        ("Mass M", vec![body.model.mass.as_ref().map_or_else(|| words::NO_MASS.to_owned(), matrix)]),
         ("Method", vec![method(&body.reduction)]),
         ("Interfaces", interfaces(&body.reduction)),
         ("Reduced to", vec![coordinates(&body.reduction)]),
@@ -74,10 +74,11 @@ pub(super) fn front(page: &mut Markup, body: &ReportBody) {
 }
 
 fn digests(page: &mut Markup, model: &ModelReport) {
-    let matrices = [("K", &model.stiffness.digest), ("M", &model.mass.digest)];
+    let matrices = [Some(("K", &model.stiffness.digest)), model.mass.as_ref().map(|mass| ("M", &mass.digest))];
     let files = model.files.iter().map(|(role, digest)| (words::file(role), digest));
     let lines: Vec<(String, Vec<String>)> = matrices
         .into_iter()
+        .flatten()
         .chain(files)
         .map(|(what, digest)| (format!("BLAKE3 of {what}"), vec![digest.clone()]))
         .collect();
@@ -87,26 +88,7 @@ fn digests(page: &mut Markup, model: &ModelReport) {
 }
 
 fn counts(body: &ReportBody) -> String {
-    let of = |verdict| -> Vec<&str> {
-        let ids = body.checks.iter().filter(|check| check.verdict() == verdict).map(|check: &Check| check.id);
-        let mut ids: Vec<&str> = ids.collect();
-        ids.dedup();
-        ids
-    };
-    let n_passed = body.checks.iter().filter(|check| check.verdict() == Verdict::Pass).count();
-    let n_judged = body.checks.iter().filter(|check| check.is_judged()).count();
-    let mut parts = vec![format!("{n_passed} of {} passed", counted(n_judged, "check", "checks"))];
-    let (failed, warned) = (of(Verdict::Fail), of(Verdict::Warn));
-    if !failed.is_empty() {
-        parts.push(format!("failed: {}", failed.join(", ")));
-    }
-    if !warned.is_empty() {
-        parts.push(format!("past the limit: {}", warned.join(", ")));
-    }
-    let n_shown = body.checks.iter().filter(|check| check.verdict() == Verdict::Info).count();
-    if n_shown > 0 {
-        parts.push(format!("{n_shown} shown without a limit"));
-    }
+    let mut parts = counts_of(&body.checks);
     match &body.completeness {
         Completeness::NotCertified { .. } => parts.push("completeness not certified".to_owned()),
         completeness if completeness.is_certified() => {}
@@ -119,6 +101,31 @@ fn counts(body: &ReportBody) -> String {
         parts.push(counted(body.warnings.len(), "warning", "warnings"));
     }
     parts.join("; ") + "."
+}
+
+/// How many checks passed, and which did not.
+pub(super) fn counts_of(checks: &[Check]) -> Vec<String> {
+    let of = |verdict| -> Vec<&str> {
+        let ids = checks.iter().filter(|check| check.verdict() == verdict).map(|check: &Check| check.id);
+        let mut ids: Vec<&str> = ids.collect();
+        ids.dedup();
+        ids
+    };
+    let n_passed = checks.iter().filter(|check| check.verdict() == Verdict::Pass).count();
+    let n_judged = checks.iter().filter(|check| check.is_judged()).count();
+    let mut parts = vec![format!("{n_passed} of {} passed", counted(n_judged, "check", "checks"))];
+    let (failed, warned) = (of(Verdict::Fail), of(Verdict::Warn));
+    if !failed.is_empty() {
+        parts.push(format!("failed: {}", failed.join(", ")));
+    }
+    if !warned.is_empty() {
+        parts.push(format!("past the limit: {}", warned.join(", ")));
+    }
+    let n_shown = checks.iter().filter(|check| check.verdict() == Verdict::Info).count();
+    if n_shown > 0 {
+        parts.push(format!("{n_shown} shown without a limit"));
+    }
+    parts
 }
 
 fn model(model: &ModelReport) -> Vec<String> {
@@ -140,7 +147,7 @@ fn units(model: &ModelReport) -> String {
     }
 }
 
-fn matrix(matrix: &MatrixReport) -> String {
+pub(super) fn matrix(matrix: &MatrixReport) -> String {
     let nonzeros = counted(matrix.n_nonzeros, "nonzero", "nonzeros");
     format!("{nonzeros}, {}", matrix.digits.in_words().replacen("digit", "significant digit", 1))
 }
@@ -249,6 +256,8 @@ fn repairs(body: &ReportBody) -> Vec<String> {
     let mut lines = body.model.notes.clone();
     let dropped = body.reduction.dropped.iter();
     lines.extend(dropped.map(|dropped| format!("left out {}: {}", dropped.coordinate, dropped.reason)));
+    let skipped = body.reduction.skipped.iter();
+    lines.extend(skipped.map(|skipped| format!("skipped by rule {}: {}", skipped.rule, skipped.what)));
     if body.model.rigid_body_modes.count > 0 && body.reduction.n_interface > 0 {
         lines.push(
             "constraint modes corrected, so that rigid-body motion of the interface carries the component exactly \
@@ -262,7 +271,7 @@ fn repairs(body: &ReportBody) -> Vec<String> {
     lines
 }
 
-fn signatures(page: &mut Markup) {
+pub(super) fn signatures(page: &mut Markup) {
     page.raw("<div class=\"sign\">\n<table>\n<caption>Signatures</caption>\n<thead>\n<tr><td></td>");
     for head in ["Name", "Role", "Date", "Signature"] {
         page.raw(&format!("<th scope=\"col\">{head}</th>"));
@@ -279,7 +288,7 @@ pub(super) fn sentence(statement: &str) -> String {
     capital(statement) + "."
 }
 
-fn capital(words: &str) -> String {
+pub(super) fn capital(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().collect::<String>() + letters.as_str())
 }

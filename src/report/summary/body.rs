@@ -60,7 +60,7 @@ fn model(page: &mut Page, model: &ModelReport) {
         page.entry("held", &held.join(" · "));
     }
     page.entry("stiffness", &matrix(&model.stiffness));
-    page.entry("mass", &matrix(&model.mass));
+    page.entry("mass", &model.mass.as_ref().map_or_else(|| words::NO_MASS.to_owned(), matrix));
     for (role, digest) in &model.files {
         page.entry(words::file(role), &format!("blake3 {}…", short(digest)));
     }
@@ -77,14 +77,14 @@ fn model(page: &mut Page, model: &ModelReport) {
     listing(page, "note", &model.notes);
 }
 
-fn matrix(matrix: &MatrixReport) -> String {
+pub(crate) fn matrix(matrix: &MatrixReport) -> String {
     let nonzeros = number::counted(matrix.n_nonzeros, "nonzero", "nonzeros");
     let digits = matrix.digits.in_words();
     format!("{nonzeros} · {digits} · blake3 {}…", short(&matrix.digest))
 }
 
 /// As much of a digest as tells two files apart.
-fn short(digest: &str) -> String {
+pub(crate) fn short(digest: &str) -> String {
     digest.chars().take(12).collect()
 }
 
@@ -129,6 +129,9 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     let dropped: Vec<String> =
         reduction.dropped.iter().map(|dropped| format!("{}: {}", dropped.coordinate, dropped.reason)).collect();
     listing(page, "left out", &dropped);
+    for skipped in &reduction.skipped {
+        page.entry("skipped", &format!("{}: {}", skipped.rule, skipped.what));
+    }
     let solver = words::eigensolver(reduction.eigensolver);
     let worst = reduction.modes.iter().map(|mode| mode.backward_error).fold(0.0, f64::max);
     if let Some(mode) = reduction.modes.first() {

@@ -7,7 +7,7 @@ use crate::verification::preservation::{BoundaryComparison, Preservation};
 /// Longer lists are cut; the JSON document has them all.
 pub(super) const LINES_SHOWN: usize = 8;
 
-pub(super) fn write(page: &mut Page, preservation: &Preservation) {
+pub(crate) fn write(page: &mut Page, preservation: &Preservation) {
     if *preservation == Preservation::default() {
         return;
     }

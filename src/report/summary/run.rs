@@ -76,7 +76,8 @@ fn verdict(page: &mut Page, report: &Report) {
     let body = &report.body;
     let verdict = body.verdict();
     let known = body.reduction.modes.iter().map(|mode| mode.error_bar_hz / mode.frequency_hz);
-    let has_all = body.model.stiffness.digits.are_all() && body.model.mass.digits.are_all();
+    let has_all =
+        body.model.stiffness.digits.are_all() && body.model.mass.as_ref().is_none_or(|mass| mass.digits.are_all());
     let digits = if has_all { MatrixDigits::All } else { MatrixDigits::Fewer };
     let open = Open { share: known.fold(0.0, f64::max), digits };
     let text = conclusion(&body.checks, body.warnings.len(), verdict, &open);

@@ -14,6 +14,8 @@ pub(super) struct Boundary {
     pub(super) held: Vec<bool>,
     /// Mass added to each interface dof, in scaled units.
     pub(super) load: Vec<f64>,
+    /// Stiffness of the spring from each interface dof to the ground, in scaled units.
+    pub(super) springs: Vec<f64>,
 }
 
 impl Boundary {
@@ -25,6 +27,7 @@ impl Boundary {
             description: "no interface held or loaded".to_owned(),
             held: vec![false; n_b],
             load: vec![0.0; n_b],
+            springs: vec![0.0; n_b],
         };
         let Some(interface) = interfaces.iter().find(|interface| Some(interface.name.as_str()) == support.interface())
         else {
@@ -37,6 +40,7 @@ impl Boundary {
                 boundary.description = format!("all dofs of {} held, the other interfaces free", interface.name);
             }
             Support::Loaded { mass, .. } => boundary.load(evidence, interface, *mass),
+            Support::Sprung { stiffness, .. } => boundary.spring(evidence, interface, *stiffness),
         }
         boundary
     }
@@ -62,10 +66,38 @@ impl Boundary {
         );
     }
 
+    /// Ties each translation of an interface to the ground, by a spring that its nodes share evenly.
+    fn spring(&mut self, evidence: &Evidence<'_>, interface: &Interface, stiffness: f64) {
+        let partition = evidence.partition;
+        let unit = partition.scaling.stiffness_unit();
+        let share = stiffness / unit / interface.n_nodes.max(1) as f64;
+        for dof in &interface.dofs {
+            let direction = partition.dofs[partition.n_internal + dof].site.map(|site| site.direction);
+            if !direction.is_some_and(|direction| direction.is_rotation()) {
+                self.springs[*dof] = share;
+            }
+        }
+        self.description = format!(
+            "each translation of {} on a spring of {} to the ground, rotations and the other interfaces free",
+            interface.name,
+            quantity(stiffness, 4)
+        );
+    }
+
+    /// Whether any dof is on a spring.
+    pub(super) fn has_springs(&self) -> bool {
+        self.springs.iter().any(|spring| *spring > 0.0)
+    }
+
+    /// The interface dofs that a rigid-body motion has to leave at rest to pass: those held, and those on springs.
+    pub(super) fn resisting(&self) -> Vec<bool> {
+        self.held.iter().zip(&self.springs).map(|(held, spring)| *held || *spring > 0.0).collect()
+    }
+
     /// Whether the retained modes are those of this boundary.
     pub(super) fn is_own(&self, evidence: &Evidence<'_>) -> bool {
         let held = evidence.partition.held_under(evidence.retained.boundary);
         // A load on a dof that is held changes nothing.
-        self.held == held && self.load.iter().zip(held).all(|(load, held)| held || *load == 0.0)
+        self.held == held && !self.has_springs() && self.load.iter().zip(held).all(|(load, held)| held || *load == 0.0)
     }
 }

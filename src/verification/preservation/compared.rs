@@ -20,7 +20,7 @@ use super::reference::Reference;
 use super::accuracy::Accuracy;
 use super::asked::Asked;
 use super::outcome::Preservation;
-use super::policy::Plan;
+use super::policy::{Motion, Plan};
 use super::shift::shift;
 use super::{counts, interfaces, mac, response, sizes, statics};
 
@@ -69,11 +69,13 @@ fn measured(evidence: &Evidence<'_>, analysis: &Analysis, plan: &Plan) -> Result
     if evidence.reduction.n_reduced() == 0 {
         return Ok(compared);
     }
-    compared.modes(evidence)?;
+    if plan.motion == Motion::Compared {
+        compared.modes(evidence)?;
+    }
     let notes = &mut compared.report.not_compared;
     compared.report.statics = statics::statics(evidence, &interfaces, plan.shown, notes);
     compared.checks.extend(statics::check(evidence, &compared.report.statics));
-    if let Some(band_hz) = plan.band_hz {
+    if let Some(band_hz) = plan.band_hz.filter(|_| plan.motion == Motion::Compared) {
         let references = compared.references(evidence, analysis, &interfaces, plan)?;
         compared.dynamics(evidence, (plan, band_hz), &references)?;
     }

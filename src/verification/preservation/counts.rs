@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! S(σ) = (K − σM)_BB − (K − σM)_BI (K − σM)_II⁻¹ (K − σM)_IB      n_B × n_B
-//! eigenvalues below σ with the dofs f of the interface free and a load D on them:
-//!        negative eigenvalues of (K − σM)_II  +  negative eigenvalues of S(σ)_ff − σ D_ff      (Haynsworth 1968)
+//! eigenvalues below σ with the dofs f of the interface free, a load D and springs C on them:
+//!        negative eigenvalues of (K − σM)_II  +  negative eigenvalues of S(σ)_ff + C_ff − σ D_ff      (Haynsworth 1968)
 //! ```
-//! A support holds or loads interface dofs alone, so that (K − σM)_II is the same under all of them.
+//! A support holds, loads or ties interface dofs alone, so that (K − σM)_II is the same under all of them.
 
 use faer::Mat;
 
@@ -78,15 +78,16 @@ impl Condensed {
         }))
     }
 
-    /// Negative eigenvalues of S(σ)_ff − σ D_ff.
+    /// Negative eigenvalues of S(σ)_ff + C_ff − σ D_ff.
     fn n_negative(&self, boundary: &Boundary) -> Result<Option<usize>> {
         let free: Vec<usize> = (0..boundary.held.len()).filter(|dof| !boundary.held[*dof]).collect();
         let loads: Vec<f64> = free.iter().map(|dof| self.sigma * boundary.load[*dof]).collect();
-        let scale: Vec<f64> =
-            free.iter().zip(&loads).map(|(dof, load)| dense::power_of_two_root(self.terms[*dof] + load)).collect();
+        let springs: Vec<f64> = free.iter().map(|dof| boundary.springs[*dof]).collect();
+        let terms = |i: usize| self.terms[free[i]] + loads[i] + springs[i];
+        let scale: Vec<f64> = (0..free.len()).map(|i| dense::power_of_two_root(terms(i))).collect();
         let scaled = Mat::from_fn(free.len(), free.len(), |i, j| {
-            let load = if i == j { loads[i] } else { 0.0 };
-            (self.schur[(free[i], free[j])] - load) * scale[i] * scale[j]
+            let added = if i == j { springs[i] - loads[i] } else { 0.0 };
+            (self.schur[(free[i], free[j])] + added) * scale[i] * scale[j]
         });
         let (eigenvalues, _) = dense::symmetric_eigen(scaled.as_ref())?;
         let is_off = eigenvalues.iter().all(|value| value.abs() > CONDENSED_GAP);

@@ -1,7 +1,7 @@
 //! The full model under a boundary of the scene: its eigenvalues from the factor of K_II.
 //!
-//! Holding interface dofs takes rows and columns away, loading them adds to the diagonal of M; K_II stays as it is, and
-//! so does its factor. Where that factor is not accurate enough, K − σM of the supported model is factored anew.
+//! Holding interface dofs takes rows and columns away, loading them adds to the diagonal of M, springs add to that of K; K_II
+//! stays as it is, and so does its factor. Where that factor is not accurate enough, K − σM of the supported model is factored anew.
 
 use faer::Mat;
 
@@ -30,10 +30,12 @@ pub(super) struct Supported {
     /// Numbers of the interface dofs that are not held.
     free: Vec<usize>,
     rigid: RigidBodyModes,
+    /// Whether K is that of the component, without springs.
+    is_own_stiffness: bool,
 }
 
 impl Supported {
-    /// Takes away the held dofs and adds the load.
+    /// Takes away the held dofs and adds the loads and the springs.
     ///
     /// # Errors
     /// A rigid-body motion without mass that the support lets pass; a dense eigenproblem that does not converge.
@@ -42,17 +44,34 @@ impl Supported {
         let n_i = partition.n_internal;
         let free: Vec<usize> = (0..partition.n_interface()).filter(|dof| !boundary.held[*dof]).collect();
         let kept: Vec<usize> = (0..n_i).chain(free.iter().map(|dof| n_i + dof)).collect();
-        let load: Vec<f64> = (0..n_i).map(|_| 0.0).chain(boundary.load.iter().copied()).collect();
-        let mass = principal(&partition.mass, &kept, &load);
-        massive(partition, that_pass(partition, evidence.rigid.massless(), &boundary.held)?.as_ref())?;
-        let rigid = passing_motions((partition, evidence.rigid), &boundary.held, (&kept, &mass))?;
-        Ok(Self { stiffness: principal(&partition.stiffness, &kept, &[]), mass, kept, free, rigid })
+        let on_all =
+            |of_interface: &[f64]| -> Vec<f64> { (0..n_i).map(|_| 0.0).chain(of_interface.iter().copied()).collect() };
+        let mass = principal(&partition.mass, &kept, &on_all(&boundary.load));
+        let stiffness = match boundary.has_springs() {
+            true => principal(&partition.stiffness, &kept, &on_all(&boundary.springs)),
+            false => principal(&partition.stiffness, &kept, &[]),
+        };
+        let resisting = boundary.resisting();
+        massive(partition, that_pass(partition, evidence.rigid.massless(), &resisting)?.as_ref())?;
+        let rigid = passing_motions((partition, evidence.rigid), &resisting, (&kept, &mass))?;
+        Ok(Self { stiffness, mass, kept, free, rigid, is_own_stiffness: !boundary.has_springs() })
     }
 
-    /// The rigid-body motions that the support lets pass, at the interface dofs that are not held.
-    pub(super) fn passing(&self) -> Mat<f64> {
+    /// The rigid-body motions that the support lets pass, in the reduced coordinates that are not held: those of the interface dofs, behind
+    /// them amplitudes where rigid-body modes have some.
+    pub(super) fn passing(&self, evidence: &Evidence<'_>) -> Mat<f64> {
         let motions = self.rigid.orthonormal.as_ref();
-        motions.subrows(motions.nrows() - self.free.len(), self.free.len()).to_owned()
+        if evidence.is_held() {
+            return motions.subrows(motions.nrows() - self.free.len(), self.free.len()).to_owned();
+        }
+        let n_b = evidence.partition.n_interface();
+        let mut whole = Mat::zeros(evidence.partition.n_dofs(), motions.ncols());
+        for (row, dof) in self.kept.iter().enumerate() {
+            whole.row_mut(*dof).copy_from(motions.row(row));
+        }
+        let reduced = evidence.rigid_coordinates(whole.as_ref());
+        let rows: Vec<usize> = self.free.iter().copied().chain(n_b..reduced.nrows()).collect();
+        Mat::from_fn(rows.len(), reduced.ncols(), |i, j| reduced[(rows[i], j)])
     }
 
     /// The elastic modes up to a λ, from the start vectors of a seed.
@@ -66,9 +85,11 @@ impl Supported {
         let problem = ModalProblem::of(pencil, partition.precision).deflating(self.rigid.deflated());
         let entries = EntriesAt { partition, kept: &self.kept };
         let problem = problem.with_noise(&entries);
-        let modes = self.by_factor(evidence, problem, request)?;
-        if modes.errors.iter().all(|error| error.backward <= MAX_BACKWARD_ERROR) {
-            return Ok(modes);
+        if evidence.is_held() {
+            let modes = self.by_factor(evidence, problem, request)?;
+            if modes.errors.iter().all(|error| error.backward <= MAX_BACKWARD_ERROR) {
+                return Ok(modes);
+            }
         }
         let analysis = Analysis::new(pencil)?;
         let shifted = shifted(&analysis, problem, &|dof| evidence.partition.name_of(dof))?;
@@ -80,7 +101,7 @@ impl Supported {
         if self.free.is_empty() {
             return elastic_modes(problem, &Factored::new(factor, 0.0), request);
         }
-        if self.free.len() == evidence.partition.n_interface() {
+        if self.is_own_stiffness && self.free.len() == evidence.partition.n_interface() {
             return elastic_modes(
                 problem,
                 &FreeAtZero::new(factor, &self.stiffness, constraint, &self.rigid)?,

@@ -43,4 +43,4 @@ pub use outcome::{
     BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
     ResponseComparison, ResponseSample, SizeError,
 };
-pub use policy::Plan;
+pub use policy::{Motion, Plan};

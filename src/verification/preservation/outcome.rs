@@ -50,7 +50,7 @@ pub struct PreservedMode {
 /// Frequencies of the full and the reduced model under one boundary.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BoundaryComparison {
-    /// `free`, `fix:hub` or `mass:hub`.
+    /// `free`, `fix:hub`, `mass:hub=2.5` or `spring:hub=1e6`.
     pub boundary: String,
     /// What was done to the component, in words.
     pub description: String,

@@ -69,7 +69,7 @@ pub(super) fn quotients(
     Ok(found)
 }
 
-/// The reduced pencil without the dofs that are held and with its load.
+/// The reduced pencil without the dofs that are held, with its loads and springs.
 struct Supported {
     stiffness: Mat<f64>,
     mass: Mat<f64>,
@@ -89,9 +89,12 @@ impl Supported {
         let n_b = boundary.held.len();
         let kept: Vec<usize> = (0..k.nrows()).filter(|i| *i >= n_b || !boundary.held[*i]).collect();
         let part = |a: MatRef<'_, f64>| Mat::from_fn(kept.len(), kept.len(), |i, j| a[(kept[i], kept[j])]);
-        let (stiffness, mut mass) = (part(k), part(m));
+        let (mut stiffness, mut mass) = (part(k), part(m));
         let n_free = kept.partition_point(|i| *i < n_b);
-        (0..n_free).for_each(|i| mass[(i, i)] += boundary.load[kept[i]]);
+        for i in 0..n_free {
+            mass[(i, i)] += boundary.load[kept[i]];
+            stiffness[(i, i)] += boundary.springs[kept[i]];
+        }
         let all = coordinate_scales(evidence);
         let scales = kept.iter().map(|i| all[*i]).collect();
         let n_loaded = kept[..n_free].iter().filter(|i| boundary.load[**i] > 0.0).count();

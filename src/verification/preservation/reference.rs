@@ -27,8 +27,8 @@ pub(super) struct Reference {
     pub(super) errors: Vec<ModeError>,
     /// The next eigenvalue above, where there is one.
     pub(super) next: Option<f64>,
-    /// The rigid-body motions that the support lets pass, at the interface dofs that are not held; orthonormal in the mass of
-    /// the component with its load.
+    /// The rigid-body motions that the support lets pass, in the first coordinates that are not held; orthonormal in the mass of the
+    /// component with its load.
     passing: Mat<f64>,
     /// The Sturm count, where one was made.
     pub(super) count: Option<BoundaryCount>,
@@ -58,7 +58,7 @@ impl Reference {
             lambda: found.lambda[..n_found].to_vec(),
             errors: found.errors[..n_found].to_vec(),
             next: found.lambda.get(n_found).copied().or(found.next),
-            passing: supported.passing(),
+            passing: supported.passing(evidence),
             count: None,
         })
     }

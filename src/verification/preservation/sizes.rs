@@ -63,7 +63,8 @@ fn size_error(
 }
 
 fn is_mode(coordinate: &DynamicCoordinate) -> bool {
-    !matches!(coordinate, DynamicCoordinate::InertiaRelief(_) | DynamicCoordinate::ResidualVector(_))
+    use DynamicCoordinate::{InertiaRelief, ResidualVector, RigidBody};
+    !matches!(coordinate, InertiaRelief(_) | ResidualVector(_) | RigidBody(_))
 }
 
 /// Dynamic columns up to and without the mode after the first `n_modes`.

@@ -28,6 +28,12 @@ pub(super) fn statics(
     not_compared: &mut Vec<String>,
 ) -> Vec<InterfaceStatics> {
     let mut all = Vec::new();
+    if !evidence.is_held() {
+        let names = interfaces.iter().map(|interface| &interface.name);
+        let why = "the component is free to move while they are held; M-17 compares the flexibility of the interface";
+        not_compared.extend(names.map(|name| format!("static stiffness of {name}: {why}")));
+        return all;
+    }
     for interface in interfaces {
         match motions(evidence, interface, shown) {
             Some(motions) => all.push(compared(evidence, evidence.factor, interface, &motions)),

@@ -4,7 +4,7 @@ use supel::constraint::constraint_modes;
 use supel::eigen::{Modes, mass_orthogonality};
 use supel::error::Error;
 use supel::factor::Cholesky;
-use supel::job::{Certify, Eigensolver, HeldInterface, InterfaceJob, Method, ModeSelection, ReductionJob};
+use supel::job::{Certify, Eigensolver, InterfaceJob, InterfacePart, Method, ModeSelection, ReductionJob};
 use supel::modes::{Certificate, Component, ModeSource, Search, certified};
 use supel::partition::DofOrigin;
 use supel::random::SEED;
@@ -57,7 +57,7 @@ pub fn up_to(lambda: f64) -> ModeSelection {
 
 /// Modes with these interfaces held, or directions of them, and the others free.
 pub fn mixed(held: &[&str], modes: ModeSelection, eigensolver: Eigensolver) -> ReductionJob {
-    let held = held.iter().map(|held| HeldInterface((*held).to_owned())).collect();
+    let held = held.iter().map(|held| InterfacePart((*held).to_owned())).collect();
     ReductionJob { eigensolver, held: Some(held), ..ReductionJob::new(Method::MixedInterface, modes) }
 }
 
@@ -89,7 +89,7 @@ pub fn with_component_of<T>(
         analysis: &analysis,
         factor: &factor,
         rigid: &rigid,
-        constraint: &constraint,
+        constraint: Some(&constraint),
     })
 }
 

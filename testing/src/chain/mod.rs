@@ -20,6 +20,7 @@ use supel::job::{Boundary, Coupling, Eigensolver, InterfaceJob, ModeSelection, N
 use supel::model::Model;
 use supel::modes::{Component, Retained};
 use supel::partition::{self, Partition};
+use supel::plan::Relief;
 use supel::random::SEED;
 use supel::reduction::Reduction;
 use supel::rigid::{self, RigidBodyModes};
@@ -46,6 +47,7 @@ pub fn input(model: &models::Model) -> Input {
         mass: matrix(model.n, &model.mass),
         nodes: (!dofs.is_empty()).then_some(nodes),
         dofs: (!dofs.is_empty()).then_some(dofs),
+        labels: Default::default(),
         rows: Default::default(),
         constraints: None,
         internal_forces: None,
@@ -96,10 +98,10 @@ pub fn interface(name: &str, nodes: NodeSelection, coupling: Coupling) -> Interf
 pub struct Chain {
     pub partition: Partition,
     pub rigid: RigidBodyModes,
-    pub constraint: ConstraintModes,
+    pub constraint: ConstraintModes<'static>,
     pub modes: Modes,
     pub named: DynamicColumns,
-    pub basis: Basis,
+    pub basis: Basis<'static>,
     pub reduction: Reduction,
 }
 
@@ -144,10 +146,10 @@ pub fn reduce(
             elastic_modes(problem, &operator, request)?
         }
     };
-    let component = Component::new(&partition, &analysis, &factor, &rigid, &constraint);
+    let component = Component::new(&partition, &analysis, &factor, &rigid, Some(&constraint));
     let retained = Retained { modes, boundary };
     let job = ReductionJob::new(method, ModeSelection::Count { count });
-    let named = retained_columns(component, &job, &retained);
+    let named = retained_columns(component, &constraint, Relief::of_reduction(&job), &retained);
     let basis = Basis::new(&constraint, &named, partition.internal().mass);
     let reduction = Reduction::new(&partition, &basis, &rigid).with_mass_of(&job, &basis, &retained)?;
     let modes = retained.modes;

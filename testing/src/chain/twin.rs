@@ -270,8 +270,8 @@ pub fn dense(matrix: &SparseMatrix) -> Mat<f64> {
 }
 
 /// Ψ of equation (18) in the partition's order: [Ψ_S Ψ_D; I 0].
-pub fn psi(basis: &Basis) -> Mat<f64> {
-    let (psi_s, psi_d) = (&basis.constraint_modes, &basis.dynamic_modes);
+pub fn psi(basis: &Basis<'_>) -> Mat<f64> {
+    let (psi_s, psi_d) = (basis.constraint_modes.to_columns(), &basis.dynamic_modes);
     let (n_i, n_b) = (psi_s.nrows(), psi_s.ncols());
     Mat::from_fn(n_i + n_b, n_b + psi_d.ncols(), |i, j| match (i < n_i, j < n_b) {
         (true, true) => psi_s[(i, j)],

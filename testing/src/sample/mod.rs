@@ -100,6 +100,7 @@ fn body() -> ReportBody {
             expansion: None,
             loads: Vec::new(),
             dropped: Vec::new(),
+            skipped: Vec::new(),
             modes: (1..=50).map(row).collect(),
         },
         checks: vec![Check {
@@ -152,7 +153,7 @@ fn model() -> ModelReport {
         n_bodies: 1,
         held: None,
         stiffness: matrix(9_472_104, "a"),
-        mass: matrix(3_157_368, "b"),
+        mass: Some(matrix(3_157_368, "b")),
         files: [("dofs", "c".repeat(64)), ("nodes", "d".repeat(64))].into(),
         mass_properties: MassProperties {
             mass: Some(1.234e-3),

@@ -23,7 +23,7 @@ fn gzip(write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Vec<u8> {
 fn needed(place: &Place, nodes: Option<&str>, allowed: u64) -> Result<(), (u64, PathBuf)> {
     let model = ModelJob {
         stiffness: place.path("K.mtx"),
-        mass: place.path("M.mtx"),
+        mass: Some(place.path("M.mtx")),
         nodes: nodes.map(|name| place.path(name)),
         ..ModelJob::default()
     };
@@ -52,7 +52,7 @@ fn repeated_entries_cost_what_different_ones_cost() {
     place.write("K.mtx", &text);
     // All lines take 28 bytes each with the matrix made of them: 320 MiB.
     assert_eq!(needed(&place, None, 160 * MIB), Ok(()));
-    let model = ModelJob { stiffness: place.path("K.mtx"), mass: place.path("M.mtx"), ..ModelJob::default() };
+    let model = ModelJob { stiffness: place.path("K.mtx"), mass: Some(place.path("M.mtx")), ..ModelJob::default() };
     let read = read_within(&model, &Allowance::of(None)).expect("a matrix");
     assert_eq!(read.stiffness.matrix.get(3, 3), Some(&(2.0 * LINES as f64 / 5.0)));
     assert_eq!(read.stiffness.notes.n_duplicates, LINES - 5);

@@ -87,7 +87,7 @@ fn i_14_what_no_matrix_is() {
     let commas = stiffness().replace("-1e0", "-1,5").replace("2e0", "2,5");
     refused(commas.as_bytes(), "E-ENTRY", &["K.mtx:4", "`-1,5`", "a number"]);
     let bomb = [stiffness().as_bytes(), &b"%\n".repeat(4 << 20)].concat();
-    refused(&gzip(&bomb), "E-GZIP-BOMB", &["1000 times", "at most 1000 times"]);
+    refused(&gzip(&bomb), "E-PACKED-BOMB", &["1000 times", "at most 1000 times"]);
     refused(&[0; 4096], "E-BANNER", &["not a matrix"]);
     refused(&[0xff; 1 << 18], "E-LINE", &["check that this is a text file"]);
 }

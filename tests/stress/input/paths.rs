@@ -118,7 +118,7 @@ fn i_23_a_file_that_is_written_while_it_is_read() {
     use supel::job::ModelJob;
 
     let place = Place::with(&supel_models::spring(30_000, supel_models::Ends::Free));
-    let model = ModelJob { stiffness: place.path("K.mtx"), mass: place.path("M.mtx"), ..ModelJob::default() };
+    let model = ModelJob { stiffness: place.path("K.mtx"), mass: Some(place.path("M.mtx")), ..ModelJob::default() };
     assert!(supel::input::read(&model).is_ok());
     let (file, is_read) =
         (std::fs::File::options().write(true).open(place.path("K.mtx")).expect("a file"), AtomicBool::new(false));

@@ -1,8 +1,8 @@
 //! Changes of tensors, and of several fields together by somebody who knows what they mean.
 
 use supel_runtime::{
-    Coordinate, Matrix, MatrixKind, Metadata, Precision, RecoveredDof, Recovery, RigidBodyModes, Superelement, Tensors,
-    Verdict,
+    Coordinate, Matrix, MatrixKind, Metadata, Precision, RecoveredDof, RecoveredFaces, Recovery, RigidBodyModes,
+    Superelement, Tensors, Verdict,
 };
 
 /// One change; false where the superelement has nothing to change.
@@ -98,10 +98,26 @@ fn rows_of(recovery: &Recovery, change: impl FnOnce(&Matrix) -> Matrix) -> Optio
 /// Other rows at the nodes of a recovery.
 fn with_places_of(recovery: &Recovery, rows: Matrix, dofs: Vec<RecoveredDof>, precision: Precision) -> Recovery {
     let new = Recovery::new(rows, dofs, precision).expect("as many dofs as rows");
-    match recovery.positions() {
+    let placed = match recovery.positions() {
         Some(positions) => new.with_positions(positions.to_vec()).expect("as many positions as nodes"),
         None => new,
+    };
+    match recovery.faces() {
+        Some(faces) => placed.with_faces(faces.clone()).expect("faces of as many nodes"),
+        None => placed,
     }
+}
+
+/// Changes the faces between recovered nodes.
+fn faced(tensors: &mut Tensors, change: impl FnOnce(&mut Vec<Vec<usize>>)) -> bool {
+    let Some(recovery) = tensors.recovery.as_ref() else { return false };
+    let (Some(faces), Some(positions)) = (recovery.faces(), recovery.positions()) else { return false };
+    let mut all: Vec<Vec<usize>> = faces.iter().map(<[usize]>::to_vec).collect();
+    change(&mut all);
+    let changed = RecoveredFaces::new(all.iter().map(Vec::as_slice), positions.len()).expect("faces");
+    let is_changed = changed != *faces;
+    tensors.recovery = recovery.clone().with_faces(changed).ok();
+    is_changed
 }
 
 fn recovered(tensors: &mut Tensors, change: impl FnOnce(&Matrix) -> Matrix) -> bool {
@@ -538,6 +554,32 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
         },
     },
     Alteration {
+        field: "recovery_faces",
+        what: "a face turned over",
+        alter: |t, _| faced(t, |faces| faces[0].reverse()),
+    },
+    Alteration { field: "recovery_faces", what: "a face left out", alter: |t, _| faced(t, |faces| drop(faces.pop())) },
+    Alteration {
+        field: "recovery_faces",
+        what: "taken out",
+        alter: |t, _| {
+            let Some(recovery) = t.recovery.as_ref().filter(|recovery| recovery.faces().is_some()) else {
+                return false;
+            };
+            let positions = recovery.positions().expect("faces have positions").to_vec();
+            let bare = Recovery::new(recovery.rows().clone(), recovery.dofs().to_vec(), recovery.precision());
+            t.recovery = bare.and_then(|bare| bare.with_positions(positions)).ok();
+            true
+        },
+    },
+    Alteration {
+        field: "recovery_face_offsets",
+        what: "a corner left out",
+        alter: |t, _| {
+            faced(t, |faces| faces.iter_mut().filter(|face| face.len() == 4).take(1).for_each(|face| face.truncate(3)))
+        },
+    },
+    Alteration {
         field: "recovery_positions",
         what: "a node elsewhere",
         alter: |t, _| {
@@ -696,6 +738,14 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
             m.model.rigid_body_modes = RigidBodyModes::Algebraic;
             m.model.mass_properties = None;
             t.gravity = None;
+            true
+        },
+    },
+    Alteration {
+        field: "validity.gravity[]",
+        what: "gravity declared to act along one axis",
+        alter: |_, m| {
+            m.validity.gravity = Some([0.0, 0.0, 1.0]);
             true
         },
     },

@@ -54,7 +54,7 @@ fn bracket(name: &'static str, method: &str) -> Subject {
     let place = Place::with_example();
     let job = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
     let job = job.replace("herting", method).replace("bracket.supel", "x.supel");
-    let job = job + "recovery = { nodes = { within = { sphere = { center = [0, 0, 40], radius = 12 } } } }\n";
+    let job = job + "recovery = { nodes = { within = { sphere = { center = [0, 0, 40], radius = 16 } } } }\n";
     Subject::of(name, place, &job)
 }
 
@@ -164,6 +164,17 @@ fn mixed() -> Subject {
     Subject::of("mixed boundaries", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
 }
 
+/// A solid that its interface leaves free to turn: static modes are Rubin's, and rigid-body modes are coordinates next to them.
+fn turning() -> Subject {
+    let place = Place::with(&steel_brick());
+    let interfaces = patch("pin", "[1]", "direct")
+        + &patch("tip", "[5]", "direct")
+        + "[[load]]\nname = \"thrust\"\nnodes = [23]\nforce = [1.5, 2.5, 3.5]\n";
+    let reduction = "method = \"rubin\"\nmodes = { count = 5 }";
+    let recovery = "recovery = { nodes = [22, 23, 24] }";
+    Subject::of("Rubin, free to turn", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, recovery))
+}
+
 /// A solid without interface: its own modes.
 fn modal() -> Subject {
     let place = Place::with(&steel_brick());
@@ -195,6 +206,7 @@ pub(super) fn subjects() -> Vec<Subject> {
         damped(),
         expanded(),
         mixed(),
+        turning(),
         modal(),
         massless(),
     ];

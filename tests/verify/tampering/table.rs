@@ -13,9 +13,10 @@ use supel::input::{Allowance, InputFacts};
 use supel::job::Job;
 use supel::model::Model;
 use supel::partition::{
-    CarriedMatrix, Expansion, Loads, Partition, Quantities, expansion_modes, further_matrices, loads, quantities,
-    recovered_rows,
+    CarriedMatrix, Expansion, Loads, Partition, Quantities, expansion_modes, further_matrices, loads, patches,
+    quantities, recovered_rows,
 };
+use supel::plan::Plan;
 use supel::verification::check::Verdict;
 use supel_models::fnv1a;
 use supel_runtime::Superelement;
@@ -120,9 +121,11 @@ impl Known {
         let facts = facts.with_quantities(rows.as_ref()).with_matrices(&matrices);
         let model = Model::new(read).expect("a model");
         let recovered = recovered_rows(&model, job.write.recovery.as_ref()).expect("nodes");
+        let faces = input::patch_faces(&job.model, &patches(&model, &job), &Allowance::of(None)).expect("cells");
+        let (recovered, _) = recovered.with_faces(&faces);
         let of_job = quantities(&model, rows).expect("rows");
         let matrices = further_matrices(&model, matrices).expect("rows");
-        let row_loads = loads(&model, &job.loads, &columns).expect("nodes");
+        let row_loads = loads(&model, &job.loads, &columns, &faces).expect("nodes");
         let modes = modes.map(|modes| expansion_modes(&model, &modes).expect("modes"));
         let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
         if let Some(modes) = modes {
@@ -208,7 +211,8 @@ impl Sound<'_> {
 
 fn examine(table: &mut Table, subject: &Subject, tampering: Tampering) {
     let known = Known::of(subject);
-    let reference = Reference::new(&known.job, &known.facts, &known.partition).expect("a reference");
+    let plan = Plan::of(&known.job);
+    let reference = Reference::new(&plan, &known.facts, &known.partition).expect("a reference");
     let original = &subject.superelement;
     for audit in [audit::of_file(original), audit::against(original, &reference)] {
         let audit = audit.expect("an audit");
@@ -286,7 +290,8 @@ fn tensor_names(superelement: &Superelement) -> BTreeSet<String> {
         matrices: _,
     } = superelement.tensors();
     let names = "stiffness mass rigid_body_modes rigid_body_mass interface_positions interface_frames frequencies damping mixing \
-                 gravity load_vectors matrices quantities recovery recovery_dofs recovery_positions";
+                 gravity load_vectors matrices quantities recovery recovery_dofs recovery_faces recovery_face_offsets \
+                 recovery_positions";
     names.split_whitespace().map(str::to_owned).collect()
 }
 

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Runs every target for a minute, or for as many seconds as are given, from the fixtures and what earlier runs found.
+# Needs cargo-fuzz: cargo install cargo-fuzz
+set -euo pipefail
+cd "$(dirname "$0")"
+seconds="${1:-60}"
+# cargo-fuzz asks for options of the compiler that a stable one has behind this variable.
+export RUSTC_BOOTSTRAP=1
+
+seeds() { # target, then patterns of fixtures
+    mkdir -p "corpus/$1" "seeds/$1"
+    local target="$1"
+    shift
+    for file in "$@"; do cp "$file" "seeds/$target/"; done
+}
+
+matrices=../fixtures/matrices
+text=../fixtures/text
+seeds matrix_market $matrices/[km].mtx $matrices/[km]_short.mtx
+seeds coordinate $text/truss.sti $text/truss.mas
+seeds abaqus_labels $matrices/*_labels.mtx
+seeds dmig $matrices/*.pch $matrices/*.bdf
+seeds op4 $matrices/*.op4
+seeds harwell_boeing $matrices/*.rsa $matrices/*.rua
+seeds npz $matrices/*.npz
+seeds npy $matrices/*.npy
+seeds matlab5 $matrices/*.mat
+seeds any_matrix $matrices/k.mtx $matrices/k_labels.mtx $matrices/small.bdf $matrices/string_little.op4 $matrices/k.rsa $matrices/k_csr.npz $matrices/sparse.mat
+seeds dof_map $text/truss.dof $matrices/small.bdf
+seeds node_table $text/truss.csv
+seeds mesh ../fixtures/mesh/*.msh ../fixtures/mesh/*.vtk ../fixtures/mesh/*.vtu ../fixtures/calculix/*.inp ../fixtures/calculix/*.frd
+
+for target in seeds/*/; do
+    target="$(basename "$target")"
+    printf '\n#### %s for %s s\n' "$target" "$seconds"
+    cargo fuzz run "$target" "corpus/$target" "seeds/$target" -- -max_total_time="$seconds" -rss_limit_mb=4096 -timeout=20 -max_len=65536
+done

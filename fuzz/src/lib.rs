@@ -1,0 +1,76 @@
+//! What the targets call: a file of any content, read as a matrix, a dof map or nodes. A reader gives a value or an error, and takes no
+//! more memory than a multiple of the file.
+
+use std::cell::RefCell;
+use std::path::Path;
+
+use supel::input::{Allowance, Patch, Patches, SingleMatrix, nodes, patch_faces, read};
+use supel::job::{Layout, ModelJob};
+
+/// Memory that reading may claim.
+const ALLOWANCE: u64 = 1 << 30;
+/// A model of three rows for dof maps and nodes.
+const MATRIX: &str = "%%MatrixMarket matrix coordinate real symmetric\n3 3 3\n1 1 1\n2 2 1\n3 3 1\n";
+
+thread_local! {
+    static FOLDER: RefCell<tempfile::TempDir> = RefCell::new(tempfile::tempdir().expect("a folder"));
+}
+
+/// Writes a file of this content and hands its path to `then`.
+fn with_file(content: &[u8], then: impl FnOnce(&Path)) {
+    FOLDER.with_borrow(|folder| {
+        let path = folder.path().join("content");
+        std::fs::write(&path, content).expect("written");
+        then(&path);
+    });
+}
+
+/// Reads a content as a matrix of a format, or of the one that it looks like.
+pub fn read_matrix(content: &[u8], layout: Option<Layout>) {
+    with_file(content, |path| {
+        let matrix = SingleMatrix { file: path.to_owned(), layout, dofs: None };
+        match matrix.read(&Allowance::of(Some(ALLOWANCE))) {
+            Ok(read) => assert!(read.input.matrix.data().iter().all(|value| value.is_finite())),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+    });
+}
+
+fn read_model(fill: impl FnOnce(&mut ModelJob)) {
+    FOLDER.with_borrow(|folder| {
+        let matrix = folder.path().join("matrix.mtx");
+        std::fs::write(&matrix, MATRIX).expect("written");
+        let mut model = ModelJob { stiffness: matrix.clone(), mass: matrix, ..ModelJob::default() };
+        fill(&mut model);
+        if let Err(error) = read(&model) {
+            assert!(!error.to_string().is_empty());
+        }
+    });
+}
+
+/// Reads a content as the dof map of a model of three rows.
+pub fn read_dof_map(content: &[u8]) {
+    with_file(content, |path| read_model(|model| model.dofs = Some(path.to_owned())));
+}
+
+/// Reads a content as a table of nodes.
+pub fn read_nodes(content: &[u8]) {
+    with_file(content, |path| read_model(|model| model.nodes = Some(path.to_owned())));
+}
+
+/// Reads a content as a mesh: its nodes, its groups, and the faces of the first of these.
+pub fn read_mesh(content: &[u8]) {
+    with_file(content, |path| {
+        let allowance = Allowance::of(Some(ALLOWANCE));
+        let Ok(read) = nodes(path, &allowance).map_err(|error| assert!(!error.to_string().is_empty())) else { return };
+        assert_eq!(read.labels.len(), read.coordinates.len());
+        let members = read.groups.values().next().cloned().unwrap_or_else(|| vec![0]);
+        let positions = members.iter().map(|node| read.coordinates[*node]).collect();
+        let patch = Patch { interface: "patch".to_owned(), nodes: members, positions };
+        let patches = Patches { list: vec![patch], n_nodes: read.labels.len() };
+        let model = ModelJob { nodes: Some(path.to_owned()), ..ModelJob::default() };
+        if let Err(error) = patch_faces(&model, &patches, &allowance) {
+            assert!(!error.to_string().is_empty());
+        }
+    });
+}

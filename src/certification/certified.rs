@@ -1,0 +1,109 @@
+//! What was found of a result.
+
+use super::band::{Band, Completed, completed};
+use super::checks;
+use super::claims::Claims;
+use super::independence::independent;
+use super::judgement::{Judged, judged_pairs};
+use super::measured::Measured;
+use super::pair::{JudgedPair, MissingMode, PairKind};
+use super::unit;
+use crate::error::Result;
+use crate::job::ReductionJob;
+use crate::modes::{Certificate, Component, Search};
+use crate::verification::check::{Check, Verdict};
+
+/// What was found of eigenpairs that another program computed.
+#[derive(Clone, Debug)]
+pub struct Certification {
+    /// The band in which the result is to be complete, in Hz.
+    pub band_hz: [f64; 2],
+    /// Rigid-body modes of the model.
+    pub n_rigid: usize,
+    /// Every pair of the result, in its order.
+    pub pairs: Vec<JudgedPair>,
+    /// Modes of the model in the band that the result has not, ascending.
+    pub missing: Vec<MissingMode>,
+    /// Modes that a count finds missing in the band beyond those, too many to be looked for.
+    pub n_not_sought: usize,
+    /// The count; none where the band ends at zero.
+    pub count: Option<BandCount>,
+    /// The measures, in the order of their identifiers.
+    pub checks: Vec<Check>,
+    /// What is to be known of the result besides, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Certification {
+    /// The worst verdict of the checks.
+    pub fn verdict(&self) -> Verdict {
+        self.checks.iter().map(Check::verdict).fold(Verdict::Pass, Verdict::max)
+    }
+
+    /// How many pairs are of a kind.
+    pub fn n_of(&self, kind: PairKind) -> usize {
+        self.pairs.iter().filter(|pair| pair.kind == kind).count()
+    }
+}
+
+/// A count of the modes of the band, rigid-body modes included where the band begins at zero.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct BandCount {
+    /// The frequency below which was counted.
+    pub below_hz: f64,
+    /// Eigenvalues counted.
+    pub n_counted: usize,
+    /// Of those, how many the result has.
+    pub n_given: usize,
+    /// Pivot growth over the growth up to which the signs of the pivots are certain.
+    pub doubt: f64,
+}
+
+/// Holds the pairs of a result against the matrices of a component.
+///
+/// # Errors
+/// [`Error::ValuesUnit`](crate::error::Error::ValuesUnit); the stiffness is not definite; a count or a search fails.
+pub fn certified_pairs(
+    component: Component<'_>,
+    job: &ReductionJob,
+    claims: &Claims,
+    band: Option<Band>,
+) -> Result<Certification> {
+    let search = Search::new(component, job)?;
+    let (problem, partition) = (search.problem, component.partition);
+    let (measured, independent) = problem.with_definite_operator(|operator| {
+        let measured = Measured::of(problem.modal(), operator, claims);
+        unit::refuse_other(partition, claims, &measured)?;
+        let independent = independent(problem.modal(), operator, (claims, &measured));
+        Ok((measured, independent))
+    })?;
+    let standing = independent.standing;
+    let completed = completed((&search, partition), independent.modes, (claims, &measured), band)?;
+    let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);
+    let completed = completed.ending_with(judged.highest);
+    let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);
+    let checks = checks::checks(component, (claims, &measured), (&judged, &completed));
+    let scaling = partition.scaling;
+    Ok(Certification {
+        band_hz: completed.ends.map(|lambda| scaling.hertz(lambda)),
+        n_rigid: problem.n_rigid(),
+        count: count_of(&completed, &judged, |sigma| scaling.hertz(sigma)),
+        n_not_sought: completed.n_not_sought,
+        notes: checks::notes(component, claims, &judged),
+        checks,
+        pairs: judged.pairs,
+        missing: judged.missing,
+    })
+}
+
+/// The count at the end of the band, without what lies above it.
+fn count_of(completed: &Completed, judged: &Judged, hertz: impl Fn(f64) -> f64) -> Option<BandCount> {
+    let certificate: &Certificate = completed.certificate.as_ref()?;
+    let n_counted = certificate.n_counted - judged.n_above;
+    Some(BandCount {
+        below_hz: hertz(completed.known_to),
+        n_counted,
+        n_given: n_counted.saturating_sub(judged.missing.len() + judged.n_cut + judged.n_rigid_missing),
+        doubt: certificate.doubt(),
+    })
+}

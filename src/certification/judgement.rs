@@ -1,0 +1,286 @@
+//! What each pair of a result is, once all modes of the band are known.
+//!
+//! ```text
+//! Y    n' × m   the modes of the band, M-orthonormal
+//! C    m × k    YᵀMX: how much of each mode a shape has; the squares of a column are shares of its modal mass
+//! ```
+//! Modes of a cluster are one space: any combination of them is as good.
+
+use std::ops::Range;
+
+use faer::Mat;
+
+use super::band::Completed;
+use super::claims::Claims;
+use super::independence::Standing;
+use super::measured::Measured;
+use super::pair::{JudgedPair, MissingMode, PairKind};
+use crate::dense;
+use crate::modes::BoundaryProblem;
+use crate::sparse::product;
+
+/// Relative distance of eigenvalues of one cluster: a result ends inside one, or has some of its modes, without anybody's fault.
+const CLUSTER: f64 = 1e-5;
+/// Share of its modal mass that a shape has of a mode at least, to be that mode.
+const MOSTLY: f64 = 0.5;
+/// Relative difference of a frequency beyond which it is not that of its mode: reduced models are accepted with less.
+pub(super) const INEXACT: f64 = 1e-3;
+/// λ of rigid-body motion relative to the first elastic one: a hundredth of its frequency.
+pub(super) const NOT_RIGID: f64 = 1e-4;
+
+/// The pairs of a result and what it lacks.
+pub(super) struct Judged {
+    pub(super) pairs: Vec<JudgedPair>,
+    pub(super) missing: Vec<MissingMode>,
+    /// Modes that were counted above the end of the band.
+    pub(super) n_above: usize,
+    /// Modes of the cluster at the end of the band that the result lacks: it ends inside of it.
+    pub(super) n_cut: usize,
+    /// Rigid-body modes that the result lacks; none are missing of a band that begins above them.
+    pub(super) n_rigid_missing: usize,
+    /// λ of the highest mode that a pair is.
+    pub(super) highest: Option<f64>,
+    /// δ/γ of each pair that is a mode: the sine of the angle between its shape and the modes of its cluster.
+    pub(super) angles: Vec<Option<f64>>,
+    /// The relative error bar of each quotient, of λ.
+    pub(super) bars: Vec<f64>,
+}
+
+/// Judges every pair.
+pub(super) fn judged_pairs(
+    problem: &BoundaryProblem<'_>,
+    (claims, measured): (&Claims, &Measured),
+    standing: &[Standing],
+    completed: &Completed,
+) -> Judged {
+    let modes = &completed.modes;
+    let truth = Truth { lambda: &modes.lambda, clusters: clusters(&modes.lambda), completed, sigma: measured.sigma };
+    let momenta = product(problem.modal().mass, claims.shapes.as_ref());
+    let shares = dense::gram(modes.shapes.as_ref(), momenta.as_ref());
+    let mut taken: Vec<Vec<usize>> = vec![Vec::new(); truth.clusters.len()];
+    let mut kinds: Vec<Found> = (0..claims.count()).map(|_| Found::invented()).collect();
+    // Good shapes take their places first.
+    for is_kept in [true, false] {
+        for claim in 0..claims.count() {
+            if (standing[claim] == Standing::Kept) == is_kept {
+                let told = claims.lambda.as_ref().map_or(measured.lambda[claim], |stated| stated[claim]);
+                kinds[claim] = truth.found(claim, standing[claim], (&shares, told), &mut taken);
+            }
+        }
+    }
+    let n_rigid = kinds.iter().filter(|found| found.kind == PairKind::RigidBody).count();
+    let has_rigid = completed.ends[0] <= 0.0;
+    let n_rigid_missing = if has_rigid { problem.n_rigid().saturating_sub(n_rigid) } else { 0 };
+    let bars: Vec<f64> = (0..claims.count()).map(|claim| truth.bar(claim, kinds[claim].cluster, measured)).collect();
+    let context = Context { problem, claims, measured, truth: &truth };
+    let pairs = (0..claims.count()).map(|claim| context.pair(claim, &kinds[claim], bars[claim])).collect();
+    let angles = (0..claims.count()).map(|claim| truth.angle(claim, kinds[claim].cluster, measured)).collect();
+    let (missing, n_cut) = context.missing(&taken);
+    let mut is_taken = truth.clusters.iter().zip(&taken).filter(|(_, taken)| !taken.is_empty());
+    let highest = is_taken.next_back().map(|(cluster, _)| truth.lambda[cluster.end - 1]);
+    Judged { pairs, missing, n_above: truth.n_above(), n_cut, n_rigid_missing, highest, angles, bars }
+}
+
+/// What a pair was found to be.
+struct Found {
+    kind: PairKind,
+    /// The cluster of modes that it belongs to.
+    cluster: Option<usize>,
+    repeats: Option<usize>,
+}
+
+impl Found {
+    fn invented() -> Self {
+        Self { kind: PairKind::Invented, cluster: None, repeats: None }
+    }
+}
+
+/// The modes that there are.
+struct Truth<'a> {
+    lambda: &'a [f64],
+    clusters: Vec<Range<usize>>,
+    completed: &'a Completed,
+    sigma: f64,
+}
+
+/// Runs of eigenvalues of one cluster.
+fn clusters(lambda: &[f64]) -> Vec<Range<usize>> {
+    let mut runs = Vec::new();
+    let mut start = 0;
+    for end in 1..=lambda.len() {
+        if end == lambda.len() || lambda[end] - lambda[end - 1] > CLUSTER * lambda[end] {
+            runs.push(start..end);
+            start = end;
+        }
+    }
+    runs
+}
+
+impl Truth<'_> {
+    /// Whether an eigenvalue lies in the band; clusters at its end are in it.
+    fn holds(&self, lambda: f64) -> bool {
+        let [from, to] = self.completed.ends;
+        (from <= 0.0 || lambda >= from * (1.0 - CLUSTER)) && lambda <= to * (1.0 + CLUSTER)
+    }
+
+    fn n_above(&self) -> usize {
+        self.lambda.iter().filter(|lambda| **lambda > self.completed.known_to * (1.0 + CLUSTER)).count()
+    }
+
+    fn found(
+        &self,
+        claim: usize,
+        standing: Standing,
+        (shares, told): (&Mat<f64>, f64),
+        taken: &mut [Vec<usize>],
+    ) -> Found {
+        let share_of =
+            |cluster: usize| -> f64 { self.clusters[cluster].clone().map(|mode| shares[(mode, claim)].powi(2)).sum() };
+        let best = (0..self.clusters.len()).max_by(|a, b| share_of(*a).total_cmp(&share_of(*b)));
+        let best = best.filter(|best| share_of(*best) >= MOSTLY);
+        match (standing, best) {
+            (Standing::Rigid, _) => Found { kind: PairKind::RigidBody, cluster: None, repeats: None },
+            (Standing::DependsOn(other), _) => Found { kind: PairKind::Repeated, cluster: None, repeats: Some(other) },
+            (Standing::Kept, Some(cluster)) => {
+                taken[cluster].push(claim);
+                Found { kind: PairKind::Mode, cluster: Some(cluster), repeats: None }
+            }
+            (Standing::None, Some(cluster)) if taken[cluster].len() < self.clusters[cluster].len() => {
+                taken[cluster].push(claim);
+                Found { kind: PairKind::Inexact, cluster: Some(cluster), repeats: None }
+            }
+            // A poor copy of a mode that the result has.
+            (Standing::None, Some(cluster)) => {
+                Found { kind: PairKind::Repeated, cluster: None, repeats: taken[cluster].first().copied() }
+            }
+            // Its neighbours are not known, and it is a mode all the same.
+            (Standing::Kept, None) => Found { kind: PairKind::Mode, cluster: None, repeats: None },
+            (Standing::None, None) => {
+                // What is told to lie above the modes that are known may be any.
+                let is_above = told > self.completed.known_to * (1.0 + CLUSTER);
+                let kind = if is_above { PairKind::OutsideBand } else { PairKind::Invented };
+                Found { kind, cluster: None, repeats: None }
+            }
+        }
+    }
+
+    /// γ of a cluster: the relative distance of its θ to those of its neighbours.
+    fn gap(&self, cluster: usize) -> f64 {
+        let Range { start, end } = self.clusters[cluster];
+        let own = |mode: usize| self.lambda[mode] - self.sigma;
+        let below = start.checked_sub(1).map(|below| (own(start) / own(below) - 1.0).abs());
+        let above = self.lambda.get(end).map(|above| (own(end - 1) / (above - self.sigma) - 1.0).abs());
+        below.into_iter().chain(above).fold(1.0, f64::min)
+    }
+
+    /// The relative error bar of ρ: δ, or δ²/γ where its mode is known, and what rounding and digits leave.
+    fn bar(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> f64 {
+        let (lambda, lacking) = (measured.lambda[claim], measured.lacking[claim]);
+        // Of λ − σ and not of λ.
+        let of_distance = |share: f64| share * ((lambda - self.sigma) / lambda).abs();
+        let of_any = if lacking < 1.0 { lacking / (1.0 - lacking) } else { f64::INFINITY };
+        let of_residual = match cluster {
+            Some(cluster) if lacking < self.gap(cluster) => of_any.min(lacking * lacking / self.gap(cluster)),
+            _ => of_any,
+        };
+        of_distance(of_residual) + measured.errors[claim].data_bar
+    }
+
+    fn angle(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> Option<f64> {
+        cluster.map(|cluster| (measured.lacking[claim] / self.gap(cluster)).min(1.0))
+    }
+}
+
+/// What the pairs are put into words with.
+struct Context<'a> {
+    problem: &'a BoundaryProblem<'a>,
+    claims: &'a Claims,
+    measured: &'a Measured,
+    truth: &'a Truth<'a>,
+}
+
+impl Context<'_> {
+    fn hertz(&self, lambda: f64) -> f64 {
+        self.problem.component.partition.scaling.hertz(lambda)
+    }
+
+    fn pair(&self, claim: usize, found: &Found, bar: f64) -> JudgedPair {
+        let Self { problem, claims, measured, truth } = self;
+        let lambda = measured.lambda[claim];
+        let stated = claims.lambda.as_ref().map(|stated| stated[claim]);
+        let shape_hz = self.hertz(lambda);
+        let of_cluster = found.cluster.map(|cluster| nearest(&truth.lambda[truth.clusters[cluster].clone()], lambda));
+        // Of a shape that is an eigenvector its own quotient is known best.
+        let mode = match found.kind {
+            PairKind::Mode => Some(lambda),
+            PairKind::Inexact => of_cluster,
+            PairKind::RigidBody => Some(0.0),
+            PairKind::Repeated | PairKind::Invented | PairKind::OutsideBand => None,
+        };
+        let stated_or_own = stated.unwrap_or(lambda);
+        let is_off = match (found.kind, mode) {
+            (PairKind::Mode, Some(mode)) => {
+                let off = (stated_or_own.max(0.0) / mode).sqrt() - 1.0;
+                !(off.abs() <= INEXACT + claims.value_rounding && 0.5 * bar <= INEXACT)
+            }
+            (PairKind::RigidBody, _) => {
+                truth.lambda.first().is_some_and(|first| stated_or_own.abs() > NOT_RIGID * first)
+            }
+            _ => false,
+        };
+        let kind = if is_off { PairKind::Inexact } else { found.kind };
+        let is_outside =
+            truth.completed.is_asked && kind != PairKind::Repeated && !truth.holds(mode.unwrap_or(stated_or_own));
+        let kind = if is_outside { PairKind::OutsideBand } else { kind };
+        let at = problem.component.partition.dof_under(problem.boundary, measured.worst[claim]);
+        JudgedPair {
+            number: claim + 1,
+            kind,
+            stated_hz: stated.map(|stated| self.hertz(stated)),
+            shape_hz,
+            error_bar_hz: 0.5 * bar * shape_hz.abs(),
+            mode_hz: mode.map(|mode| self.hertz(mode)),
+            backward_error: measured.backward[claim],
+            worst_at: problem.component.partition.name_of(at),
+            repeats: found.repeats.map(|other| other + 1),
+            neighbours_hz: if kind == PairKind::Invented { self.neighbours(stated_or_own) } else { [None, None] },
+        }
+    }
+
+    fn neighbours(&self, lambda: f64) -> [Option<f64>; 2] {
+        let known = self.truth.lambda;
+        let above = known.partition_point(|other| *other <= lambda);
+        let below = above.checked_sub(1).map(|below| self.hertz(known[below]));
+        [below, known.get(above).map(|above| self.hertz(*above))]
+    }
+
+    /// The modes of the band that no pair has, and how many of them only complete the cluster that the result ends in.
+    fn missing(&self, taken: &[Vec<usize>]) -> (Vec<MissingMode>, usize) {
+        let Truth { lambda, clusters, completed, .. } = self.truth;
+        let (mut missing, mut n_cut) = (Vec::new(), 0);
+        for (cluster, taken) in clusters.iter().zip(taken) {
+            let n_taken = taken.len();
+            let n_lacking = cluster.len().saturating_sub(n_taken);
+            let is_inside = self.truth.holds(lambda[cluster.start]);
+            if n_lacking == 0 || !is_inside {
+                continue;
+            }
+            let is_last = lambda[cluster.end - 1] >= completed.ends[1] * (1.0 - CLUSTER);
+            if is_last && n_taken > 0 && !completed.is_asked {
+                n_cut += n_lacking;
+                continue;
+            }
+            for mode in cluster.end - n_lacking..cluster.end {
+                let frequency_hz = self.hertz(lambda[mode]);
+                let error_bar_hz = 0.5 * completed.modes.errors[mode].relative_bar * frequency_hz;
+                missing.push(MissingMode { frequency_hz, error_bar_hz, of_frequency: [cluster.len(), n_taken] });
+            }
+        }
+        (missing, n_cut)
+    }
+}
+
+fn nearest(lambda: &[f64], to: f64) -> f64 {
+    let distance = |other: &f64| (other - to).abs();
+    lambda.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(to)
+}

@@ -1,0 +1,55 @@
+//! A pair of a result, and a mode that the result has not.
+
+/// What a pair of a result is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PairKind {
+    /// Rigid-body motion.
+    RigidBody,
+    /// A mode of the model.
+    Mode,
+    /// Mostly a mode of the model, whose frequency or shape it has not well enough.
+    Inexact,
+    /// A combination of other shapes of the result.
+    Repeated,
+    /// No mode of the model.
+    Invented,
+    /// Outside of the band: measured, not judged.
+    OutsideBand,
+}
+
+/// A pair of a result.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct JudgedPair {
+    /// Its number in the result, from one.
+    pub number: usize,
+    /// What it is.
+    pub kind: PairKind,
+    /// Its frequency as the result has it, in Hz; none where the result has none.
+    pub stated_hz: Option<f64>,
+    /// The frequency that belongs to its shape, in Hz.
+    pub shape_hz: f64,
+    /// How far from that the nearest frequency of the model may be, in Hz; infinite where nothing is known.
+    pub error_bar_hz: f64,
+    /// The frequency of the mode that it is, in Hz; none where it is none.
+    pub mode_hz: Option<f64>,
+    /// Normwise backward error of the pair.
+    pub backward_error: f64,
+    /// Node and direction where its residual is largest.
+    pub worst_at: String,
+    /// The number of the pair that it repeats.
+    pub repeats: Option<usize>,
+    /// The nearest frequencies of the model below and above it, of a pair that is no mode.
+    pub neighbours_hz: [Option<f64>; 2],
+}
+
+/// A mode of the model that the result has not.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct MissingMode {
+    /// Its frequency in Hz.
+    pub frequency_hz: f64,
+    /// Its error bar.
+    pub error_bar_hz: f64,
+    /// How many modes of this frequency the model has, and how many of them the result.
+    pub of_frequency: [usize; 2],
+}

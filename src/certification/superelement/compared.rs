@@ -1,0 +1,67 @@
+//! A foreign superelement and its component in numbers, both free.
+
+use faer::Mat;
+
+use super::foreign::Foreign;
+use crate::dense;
+use crate::eigen::ModeError;
+use crate::modes::{Certificate, Component};
+use crate::verification::preservation::{BoundaryComparison, BoundaryCount, FrequencyPair};
+
+/// What both models are in numbers.
+pub(super) struct Compared<'a> {
+    pub(super) component: Component<'a>,
+    pub(super) foreign: &'a Foreign,
+    /// λ of the component, ascending, rigid-body motion left out.
+    pub(super) full: &'a [f64],
+    pub(super) errors: &'a [ModeError],
+    /// λ of the superelement, ascending; none where K̂ or M̂ is not definite.
+    pub(super) reduced: Option<Vec<f64>>,
+    /// Of them, how many are no elastic mode's.
+    pub(super) n_without_stiffness: usize,
+    pub(super) rigid: Nearest,
+    /// ‖x − Ψq‖ of each mode of the component, x of unit mass and q the best there is.
+    pub(super) left_of_modes: Vec<f64>,
+    /// Difference of a frequency in the band that fails.
+    pub(super) frequency_fails: f64,
+    /// λ up to which they are compared.
+    pub(super) top: f64,
+    pub(super) certificate: Option<&'a Certificate>,
+}
+
+/// Motions of the component as a superelement has them: the coordinates that come nearest to each.
+pub(super) struct Nearest {
+    /// Q, r × k.
+    pub(super) coordinates: Mat<f64>,
+    /// ‖U − ΨQ‖ of each in M.
+    pub(super) left: Vec<f64>,
+}
+
+impl Compared<'_> {
+    /// λ of the superelement that elastic modes have.
+    pub(super) fn elastic(&self) -> &[f64] {
+        self.reduced.as_deref().map_or(&[], |reduced| &reduced[self.n_without_stiffness..])
+    }
+
+    /// The frequencies of both models, one to one.
+    pub(super) fn frequencies(&self, [from, to]: [f64; 2]) -> Option<BoundaryComparison> {
+        self.reduced.as_ref()?;
+        let hertz = |lambda: f64| self.component.partition.scaling.hertz(lambda);
+        let pair = |(at, full): (usize, &f64)| {
+            let full_hz = hertz(*full);
+            let reduced_hz = self.elastic().get(at).map_or(f64::INFINITY, |lambda| hertz(*lambda));
+            let in_band = (from..=to).contains(&full_hz);
+            FrequencyPair { full_hz, reduced_hz, relative_difference: reduced_hz / full_hz - 1.0, in_band }
+        };
+        let frequencies: Vec<FrequencyPair> = self.full.iter().enumerate().map(pair).collect();
+        let inside = frequencies.iter().filter(|pair| pair.in_band);
+        let worst_in_band = dense::worst(inside.map(|pair| pair.relative_difference.abs()));
+        let count = self.certificate.map(|certificate| BoundaryCount {
+            below_hz: hertz(certificate.count.sigma),
+            n_counted: certificate.n_counted,
+            n_found: certificate.n_found,
+        });
+        let description = "the component as it is".to_owned();
+        Some(BoundaryComparison { boundary: "free".to_owned(), description, frequencies, worst_in_band, count })
+    }
+}

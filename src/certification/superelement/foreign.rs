@@ -1,0 +1,196 @@
+//! A foreign superelement on the dofs of a partition, in its units.
+
+use std::collections::{BTreeMap, HashMap};
+
+use faer::Mat;
+
+use super::files::{ForeignSuperelement, ReducedMatrix};
+use super::interface::Interface;
+use crate::certification::claims::carried;
+use crate::dense;
+use crate::error::{Error, Result};
+use crate::partition::{DofOrigin, Partition};
+use crate::sparse::{SparseMatrix, absolute_energy, product};
+use crate::verification::check::Limits;
+
+/// Difference of an entry relative to the diagonal that practice does not see.
+const SAME: f64 = 1e-6;
+/// The most that rounding may excuse of one.
+const MOST_EXCUSED: f64 = 1e-2;
+
+/// A foreign superelement in scaled units, its coordinates in the order of the partition: those that are interface dofs first.
+#[derive(Clone, Debug)]
+pub struct Foreign {
+    /// Ψ, n' × r; columns that are no interface dofs are brought to a largest entry in [1, 2).
+    pub(super) basis: Mat<f64>,
+    /// K̂ with ΨᵀKΨ.
+    pub(super) stiffness: Pair,
+    /// M̂ with ΨᵀMΨ.
+    pub(super) mass: Pair,
+    /// The number of each coordinate in the files, from zero.
+    pub(super) order: Vec<usize>,
+    /// Coordinates that are interface dofs.
+    pub(super) n_b: usize,
+    /// What coordinates are called that are rows of the model, by their numbers in the files.
+    names: BTreeMap<usize, String>,
+    /// What the numbers of Ψ may be off by, relative to each.
+    pub(super) rounding: f64,
+    /// How far rows that are held, or follow others, move away from that, relative to the largest displacement of each column.
+    pub(super) not_followed: f64,
+}
+
+/// A reduced matrix next to what it has to be.
+#[derive(Clone, Debug)]
+pub(super) struct Pair {
+    /// As it was read, r × r.
+    pub(super) given: Mat<f64>,
+    /// Ψᵀ A Ψ.
+    pub(super) projected: Mat<f64>,
+    /// |Ψ|ᵀ|A||Ψ| of each coordinate: rounding of an entry is relative to the root of two of these.
+    pub(super) terms: Vec<f64>,
+    /// max |A − Aᵀ| of what was read, relative to its largest entry.
+    pub(super) asymmetry: f64,
+    /// What an entry may be off by: relative to it, and whatever it is, relative to the largest.
+    pub(super) rounding: [f64; 2],
+}
+
+impl Foreign {
+    /// Puts a superelement on the dofs of a partition whose interface, where it has one, is that of the superelement.
+    ///
+    /// # Errors
+    /// [`Error::ModesNothing`] for a column of zeros.
+    pub fn of(partition: &Partition, foreign: &ForeignSuperelement, interface: &Interface) -> Result<Self> {
+        let order = order(partition, foreign.n_coordinates(), interface);
+        let (n, r, n_b) = (partition.n_dofs(), order.len(), partition.n_interface());
+        let (mut basis, mut units, mut not_followed) = (Mat::zeros(n, r), vec![1.0; r], 0.0f64);
+        for (at, coordinate) in order.iter().enumerate() {
+            let column = dense::column_mut(basis.as_mut(), at);
+            let (unit, left) = carried(partition, &foreign.basis.columns[*coordinate], column)
+                .ok_or(Error::ModesNothing { mode: coordinate + 1, found: "zero everywhere" })?;
+            // An interface dof keeps its unit.
+            match at < n_b {
+                true => column.iter_mut().for_each(|value| *value *= unit),
+                false => units[at] = unit,
+            }
+            not_followed = not_followed.max(left);
+        }
+        let scaling = partition.scaling;
+        let places = Places { order: &order, units: &units };
+        Ok(Self {
+            stiffness: places.pair((&partition.stiffness, &basis), &foreign.stiffness, scaling.stiffness_unit()),
+            mass: places.pair((&partition.mass, &basis), &foreign.mass, scaling.mass_unit()),
+            basis,
+            order,
+            n_b,
+            names: interface.names.clone(),
+            rounding: foreign.basis.rounding,
+            not_followed,
+        })
+    }
+
+    /// r.
+    pub(super) fn n_reduced(&self) -> usize {
+        self.order.len()
+    }
+
+    /// What a message calls a coordinate: its number in the files, from one, and its dof where it is one.
+    pub(super) fn name(&self, at: usize) -> String {
+        let coordinate = self.order[at];
+        let number = format!("coordinate {}", coordinate + 1);
+        self.names.get(&coordinate).map_or(number.clone(), |name| format!("{number} ({name})"))
+    }
+}
+
+/// Numbers of the coordinates: those that are interface dofs in their order, then the others in that of the files.
+fn order(partition: &Partition, r: usize, interface: &Interface) -> Vec<usize> {
+    let of_row: HashMap<usize, usize> = interface.coordinates.iter().map(|(row, at)| (*row, *at)).collect();
+    let kept = partition.dofs[partition.n_internal..].iter().filter_map(|dof| match dof.origin {
+        DofOrigin::Row(row) => of_row.get(&row).copied(),
+        _ => None,
+    });
+    let mut order: Vec<usize> = kept.collect();
+    let others: Vec<usize> = (0..r).filter(|coordinate| !order.contains(coordinate)).collect();
+    order.extend(others);
+    order
+}
+
+struct Places<'a> {
+    order: &'a [usize],
+    /// Of each coordinate.
+    units: &'a [f64],
+}
+
+impl Places<'_> {
+    fn pair(&self, (full, basis): (&SparseMatrix, &Mat<f64>), given: &ReducedMatrix, unit: f64) -> Pair {
+        let r = self.order.len();
+        let entry =
+            |i: usize, j: usize| given.values[(self.order[i], self.order[j])] / (unit * self.units[i] * self.units[j]);
+        let mut scaled = Mat::from_fn(r, r, entry);
+        let asymmetry = dense::symmetrise(&mut scaled);
+        let mut projected = dense::gram(basis.as_ref(), product(full, basis.as_ref()).as_ref());
+        dense::symmetrise(&mut projected);
+        let [relative, absolute] = given.rounding;
+        let largest = given.values.norm_max().max(f64::MIN_POSITIVE);
+        Pair {
+            given: scaled,
+            projected,
+            terms: absolute_energy(full, basis.as_ref()),
+            asymmetry,
+            rounding: [relative, absolute / largest],
+        }
+    }
+}
+
+impl Pair {
+    /// The entry that is further than any other from what it has to be, relative to the diagonal and compared with its limits.
+    pub(super) fn worst(&self, of_basis: f64) -> Difference {
+        /// Share of its terms that a diagonal entry keeps at least where it is more than what their cancelling leaves.
+        const CANCELLED: f64 = 1e-10;
+        let (given, projected) = (self.given.as_ref(), self.projected.as_ref());
+        let size = |i: usize| projected[(i, i)].max(CANCELLED * self.terms[i]).sqrt();
+        let mut worst = Difference { value: 0.0, limits: Limits { engineering: SAME, ..Limits::default() }, at: None };
+        for j in 0..given.ncols() {
+            for i in 0..=j {
+                let (scale, difference) = (size(i) * size(j), (given[(i, j)] - projected[(i, j)]).abs());
+                let value = if difference == 0.0 { 0.0 } else { difference / scale };
+                let arithmetic = dense::NOISE_FACTOR * f64::EPSILON * (self.terms[i] * self.terms[j]).sqrt() / scale;
+                let limits = Limits { engineering: SAME, arithmetic, data: self.of_digits((i, j), of_basis) / scale };
+                let limits = limits.capped(MOST_EXCUSED, MOST_EXCUSED);
+                if dense::worse(value / limits.value(), worst.value / worst.limits.value()) {
+                    worst = Difference { value, limits, at: Some((i, j)) };
+                }
+            }
+        }
+        worst
+    }
+
+    /// What the digits of the matrix as it was read may make of qᵀAq.
+    pub(super) fn changed_by_digits(&self, q: &[f64]) -> f64 {
+        let [relative, absolute] = self.rounding;
+        let absolute = absolute * self.given.norm_max();
+        let of_entry = |i: usize, j: usize| relative * self.given[(i, j)].abs() + absolute;
+        let entries = (0..q.len()).flat_map(|j| (0..q.len()).map(move |i| (i, j)));
+        // Roundings of either sign add up like the root of their squares.
+        entries.map(|(i, j)| (q[i] * q[j] * of_entry(i, j)).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// What the digits of the basis and of the matrix may make of an entry.
+    fn of_digits(&self, (i, j): (usize, usize), of_basis: f64) -> f64 {
+        let [relative, absolute] = self.rounding;
+        let of_basis = if of_basis > f64::EPSILON { 2.0 * of_basis } else { 0.0 };
+        let relative = if relative > f64::EPSILON { relative } else { 0.0 };
+        of_basis * (self.terms[i] * self.terms[j]).sqrt()
+            + relative * self.given[(i, j)].abs()
+            + absolute * self.given.norm_max()
+    }
+}
+
+/// How far a reduced matrix is from what it has to be.
+#[derive(Clone, Debug)]
+pub(super) struct Difference {
+    /// Relative to the diagonal.
+    pub(super) value: f64,
+    pub(super) limits: Limits,
+    /// Where.
+    pub(super) at: Option<(usize, usize)>,
+}

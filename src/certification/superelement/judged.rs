@@ -1,0 +1,222 @@
+//! A foreign superelement against the component as it is, its interface free.
+
+use faer::{Mat, MatRef};
+
+use super::checks;
+use super::compared::{Compared, Nearest};
+use super::foreign::Foreign;
+use super::interface::Interface;
+use crate::certification::band::Band;
+use crate::dense;
+use crate::eigen::Spectral;
+use crate::error::{ErrorClass, Result};
+use crate::job::{Certify, InterfaceJob, Job, Method, ModeSelection, ReductionJob, SceneJob};
+use crate::modes::{Component, ModeSource, Search, certified};
+use crate::number::{counted, quantity};
+use crate::partition::Partition;
+use crate::random::SEED;
+use crate::sparse::product;
+use crate::verification::check::{Check, Verdict};
+use crate::verification::preservation::{BoundaryComparison, Preservation};
+
+/// Modes are compared up to the highest of the component's own over this: above, no superelement of as many modes is meant to serve.
+const CUT_OFF: f64 = 1.5;
+
+/// What was found of a superelement of another program.
+#[derive(Clone, Debug)]
+pub struct ReducedCertification {
+    /// Coordinates.
+    pub n_coordinates: usize,
+    /// How many of them are rows of the model.
+    pub n_interface: usize,
+    /// The comparison with the component, its interface free.
+    pub free: FreeComparison,
+    /// The comparison at the interface, where it has one.
+    pub preservation: Option<Preservation>,
+    /// The measures, in the order of their identifiers.
+    pub checks: Vec<Check>,
+    /// What is to be known of it besides, one sentence each.
+    pub notes: Vec<String>,
+}
+
+impl ReducedCertification {
+    /// What is known of a superelement before its interface is looked at.
+    pub fn new(foreign: &Foreign, interface: &Interface, free: FreeComparison) -> Self {
+        let notes = notes(foreign, interface);
+        let (n_coordinates, n_interface) = (foreign.n_reduced(), interface.coordinates.len());
+        let mut checks = free.checks.clone();
+        checks.sort_by_key(place);
+        Self { n_coordinates, n_interface, checks, free, preservation: None, notes }
+    }
+
+    /// The job of a comparison at the interface, where there is one and the superelement is one of this model.
+    pub fn job_of_interface(&self, job: &Job, interfaces: Vec<InterfaceJob>) -> Option<Job> {
+        let scene = SceneJob { band_hz: Some(self.free.band_hz), ..SceneJob::default() };
+        let reduction = ReductionJob::new(Method::Guyan, ModeSelection::Count { count: 0 });
+        let is_comparable = !interfaces.is_empty() && self.free.frequencies.is_some();
+        is_comparable.then(|| Job { interfaces, reduction, scene: Some(scene), ..job.clone() })
+    }
+
+    /// Adds the comparison at the interface; one that the model does not allow is a note.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn compare(&mut self, compared: Result<(Preservation, Vec<Check>)>) -> Result<()> {
+        match compared {
+            Ok((preservation, checks)) => {
+                self.checks.extend(checks);
+                self.checks.sort_by_key(place);
+                self.preservation = Some(preservation);
+                Ok(())
+            }
+            Err(error) if matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit) => {
+                self.notes.push(format!("nothing was compared at the interface: {error}"));
+                Ok(())
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The worst verdict of the checks.
+    pub fn verdict(&self) -> Verdict {
+        self.checks.iter().map(Check::verdict).fold(Verdict::Pass, Verdict::max)
+    }
+}
+
+/// Where a check stands: those that reductions have, too, come first.
+fn place(check: &Check) -> (bool, &'static str) {
+    (check.id.starts_with('C'), check.id)
+}
+
+/// What is said besides the checks.
+fn notes(foreign: &Foreign, interface: &Interface) -> Vec<String> {
+    /// Displacement of rows at rest that is no rounding of a text.
+    const MOVES: f64 = 1e-5;
+    /// Rows that a note names.
+    const NAMED: usize = 3;
+    let mut notes = Vec::new();
+    if interface.coordinates.is_empty() {
+        notes.push(
+            "no coordinate is a row of the model: there is no interface at which statics and responses could be compared".to_owned(),
+        );
+    }
+    if foreign.not_followed > MOVES {
+        notes.push(format!(
+            "rows that are held, or that follow others, move in the basis by up to {} of the largest displacement of a column: it may be \
+             that of other supports",
+            quantity(foreign.not_followed, 2)
+        ));
+    }
+    let at_rest = &interface.at_rest;
+    if !at_rest.is_empty() {
+        let listed: Vec<&str> = at_rest.iter().take(NAMED).map(String::as_str).collect();
+        notes.push(format!(
+            "{} of the model no column of the basis moves, {} among them: held in the other program, perhaps; hold them with --fix",
+            counted(at_rest.len(), "row", "rows"),
+            listed.join(", ")
+        ));
+    }
+    notes
+}
+
+/// A superelement against its component, both free.
+#[derive(Clone, Debug)]
+pub struct FreeComparison {
+    /// The band in which it is to serve, in Hz.
+    pub band_hz: [f64; 2],
+    /// Rigid-body modes of the component.
+    pub n_rigid: usize,
+    /// Motions of the superelement without stiffness.
+    pub n_without_stiffness: usize,
+    /// Frequencies of both; none where K̂ and M̂ have none.
+    pub frequencies: Option<BoundaryComparison>,
+    /// The measures.
+    pub checks: Vec<Check>,
+}
+
+/// Difference of a frequency that fails in a band that was asked for, and in one that was not: half of it is open then.
+const FREQUENCY_FAILS: [f64; 2] = [1e-1, 0.5];
+
+/// Compares a superelement with its component. The job says how many modes of the component are looked for.
+///
+/// # Errors
+/// Those of the search for the modes of the component.
+pub fn compared_free(
+    component: Component<'_>,
+    job: &ReductionJob,
+    foreign: &Foreign,
+    band: Option<Band>,
+) -> Result<FreeComparison> {
+    let search = Search::new(component, job)?;
+    let found = component.factor.vouched(search.lowest(SEED))?;
+    let (modes, certificate) = certified(&search, &search.problem, found, search.edge(), Certify::Count)?;
+    let scaling = component.partition.scaling;
+    let highest = modes.lambda.last().copied().unwrap_or(0.0);
+    let top = match band {
+        Some(band) => scaling.eigenvalue(band.to_hz),
+        // Its first mode alone, where no more are asked for.
+        None if modes.count() <= 1 => highest * (1.0 + 1e-3),
+        None => (highest / CUT_OFF.powi(2)).max(modes.lambda[0] * (1.0 + 1e-3)),
+    };
+    let first = modes.lambda.first().copied().unwrap_or(1.0);
+    let spectral = Spectral::if_definite(foreign.stiffness.given.as_ref(), foreign.mass.given.as_ref(), first)?;
+    let reduced = spectral.map(|spectral| spectral.eigenvalues());
+    let is_free = |lambda: &&f64| **lambda < 0.5 * first;
+    let n_without_stiffness = reduced.as_ref().map_or(0, |reduced| reduced.iter().take_while(is_free).count());
+    let compared = Compared {
+        component,
+        foreign,
+        full: &modes.lambda,
+        errors: &modes.errors,
+        reduced,
+        n_without_stiffness,
+        rigid: rigid(component, foreign)?,
+        left_of_modes: nearest(component.partition, foreign, modes.shapes.as_ref())?.left,
+        frequency_fails: FREQUENCY_FAILS[usize::from(band.is_none())],
+        top,
+        certificate: certificate.as_ref(),
+    };
+    let from_hz = band.map_or(0.0, |band| band.from_hz);
+    let band_hz = [from_hz, scaling.hertz(top)];
+    Ok(FreeComparison {
+        band_hz,
+        n_rigid: component.rigid.count(),
+        n_without_stiffness,
+        frequencies: compared.frequencies(band_hz),
+        checks: checks::checks(&compared, band_hz),
+    })
+}
+
+/// Rigid-body motion with mass as the superelement has it.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn rigid(component: Component<'_>, foreign: &Foreign) -> Result<Nearest> {
+    let Component { partition, rigid, .. } = component;
+    nearest(partition, foreign, rigid.orthonormal.as_ref().subcols(0, rigid.count() - rigid.n_massless))
+}
+
+fn nearest(partition: &Partition, foreign: &Foreign, motions: MatRef<'_, f64>) -> Result<Nearest> {
+    let momenta = product(&partition.mass, motions);
+    let moments = dense::gram(foreign.basis.as_ref(), momenta.as_ref());
+    let coordinates = dense_solution(&foreign.mass.projected, &moments)?;
+    let mut left = motions.to_owned();
+    dense::add_product(left.as_mut(), -1.0, foreign.basis.as_ref(), coordinates.as_ref());
+    let masses = dense::dots(left.as_ref(), product(&partition.mass, left.as_ref()).as_ref());
+    Ok(Nearest { coordinates, left: masses.into_iter().map(|mass| mass.max(0.0).sqrt()).collect() })
+}
+
+/// The least solution of M̃ X = B, whatever rank M̃ has.
+fn dense_solution(mass: &Mat<f64>, right: &Mat<f64>) -> Result<Mat<f64>> {
+    let (scaled, scale) = dense::unit_diagonal(mass.as_ref());
+    let (values, vectors) = dense::symmetric_eigen(scaled.as_ref())?;
+    let r = values.len();
+    let least = dense::NOISE_FACTOR * r as f64 * f64::EPSILON * values.last().copied().unwrap_or(0.0);
+    let right = Mat::from_fn(r, right.ncols(), |i, j| right[(i, j)] * scale[i]);
+    let mut along = dense::gram(vectors.as_ref(), right.as_ref());
+    for (i, value) in values.iter().enumerate() {
+        (0..along.ncols()).for_each(|j| along[(i, j)] = if *value > least { along[(i, j)] / value } else { 0.0 });
+    }
+    let solution = dense::product(vectors.as_ref(), along.as_ref());
+    Ok(Mat::from_fn(r, solution.ncols(), |i, j| solution[(i, j)] * scale[i]))
+}

@@ -1,0 +1,127 @@
+//! A foreign superelement at its interface: statics, frequencies under other boundaries and responses, as of a reduction of our own.
+
+use faer::Mat;
+
+use super::foreign::{Foreign, Pair};
+use super::judged::rigid;
+use crate::dense;
+use crate::eigen::Spectral;
+use crate::error::Result;
+use crate::factor::Analysis;
+use crate::job::Job;
+use crate::modes::Component;
+use crate::partition::{InterfaceNode, Partition};
+use crate::reduction::{Projection, Reduction};
+use crate::sparse::product;
+use crate::verification::check::Check;
+use crate::verification::preservation::Preservation;
+use crate::verification::{self, Evidence};
+
+/// Share of rigid-body motion that amplitudes may have at the interface's side.
+const BY_INTERFACE: f64 = 1e-6;
+
+/// Compares at the interface; what could not be compared is a sentence of its own.
+///
+/// # Errors
+/// No memory; a dense eigenproblem that does not converge.
+pub fn preserved(
+    own: &Evidence<'_>,
+    analysis: &Analysis,
+    foreign: &Foreign,
+    job: &Job,
+) -> Result<(Preservation, Vec<Check>)> {
+    let Evidence { partition, factor, rigid: motions, constraint, .. } = *own;
+    let component = Component::new(partition, analysis, factor, motions, Some(constraint));
+    let found = rigid(component, foreign)?;
+    let amplitudes = found.coordinates.as_ref().subrows(foreign.n_b, foreign.n_reduced() - foreign.n_b);
+    let modal = dense::product(foreign.basis.as_ref().subcols(foreign.n_b, amplitudes.nrows()), amplitudes);
+    let masses = dense::dots(modal.as_ref(), product(&partition.mass, modal.as_ref()).as_ref());
+    let beside = dense::worst(masses.into_iter().map(|mass| mass.max(0.0).sqrt()).chain(found.left));
+    if dense::worse(beside, BY_INTERFACE) {
+        let why = "the motion of its interface alone does not carry the component as a rigid body";
+        let not_compared = vec![format!("statics, other boundaries and responses: {why}")];
+        return Ok((Preservation { not_compared, ..Preservation::default() }, Vec::new()));
+    }
+    let n_b = foreign.n_b;
+    let reduction = Reduction {
+        stiffness: foreign.stiffness.given.clone(),
+        mass: foreign.mass.given.clone(),
+        modal_mass: None,
+        rigid_body_modes: Mat::from_fn(foreign.n_reduced(), motions.count(), |i, j| {
+            if i < n_b { motions.modes[(partition.n_internal + i, j)] } else { 0.0 }
+        }),
+        gravity: None,
+        loads: Mat::zeros(foreign.n_reduced(), 0),
+        matrices: Vec::new(),
+        cleared: Mat::zeros(n_b, foreign.n_reduced() - n_b),
+        measured: Projection::default(),
+        ..own.reduction.clone()
+    };
+    let evidence = Evidence { reduction: &reduction, ..*own };
+    let mut compared = verification::preservation_of_file((&evidence, own), analysis, job)?;
+    // Its leading coordinates are not what a smaller superelement of its maker would have.
+    compared.report.size_errors.clear();
+    let digits = Digits::of(partition, foreign)?;
+    compared.checks.iter_mut().for_each(|check| digits.excuse(check));
+    Ok((compared.report, compared.checks))
+}
+
+/// What the digits of K̂ and M̂ may make of comparisons.
+struct Digits {
+    /// Of an eigenvalue, relatively, whichever node of the interface is held.
+    of_eigenvalue: f64,
+    /// Of a stiffness, relative to that before condensation.
+    of_stiffness: f64,
+}
+
+/// The most that digits may excuse without a warning, and at all.
+const MOST_EXCUSED: [f64; 2] = [1e-3, 1e-2];
+
+impl Digits {
+    fn of(partition: &Partition, foreign: &Foreign) -> Result<Self> {
+        let Foreign { stiffness, mass, n_b, .. } = foreign;
+        let worst = |pair: &Pair| pair.rounding[0].max(pair.rounding[1]);
+        if worst(stiffness).max(worst(mass)) <= f64::EPSILON {
+            return Ok(Self { of_eigenvalue: 0.0, of_stiffness: 0.0 });
+        }
+        let quotient = |i: usize| stiffness.given[(i, i)] / mass.given[(i, i)];
+        let quotients = (0..foreign.n_reduced()).map(quotient).filter(|lambda| *lambda > 0.0 && lambda.is_finite());
+        let least = quotients.fold(f64::INFINITY, f64::min);
+        let mut of_eigenvalue = 0.0f64;
+        for held in held_nodes(partition) {
+            let moving: Vec<usize> = (0..foreign.n_reduced()).filter(|at| !held.contains(at)).collect();
+            let [k, m] = [stiffness, mass].map(|pair| dense::part(pair.given.as_ref(), &moving));
+            let Some(spectral) = Spectral::if_definite(k.as_ref(), m.as_ref(), least)? else { continue };
+            let Some(lambda) = spectral.eigenvalues().first().copied().filter(|lambda| *lambda > 0.0) else { continue };
+            let mut q = vec![0.0; foreign.n_reduced()];
+            moving.iter().zip(spectral.eigenvector(0)).for_each(|(at, value)| q[*at] = value);
+            let change = stiffness.changed_by_digits(&q) / lambda + mass.changed_by_digits(&q);
+            of_eigenvalue = of_eigenvalue.max(change);
+        }
+        Ok(Self { of_eigenvalue, of_stiffness: *n_b as f64 * worst(stiffness) })
+    }
+
+    /// Widens the limits of a check by what digits may make of it.
+    fn excuse(&self, check: &mut Check) {
+        let data = match check.id {
+            "M-17" => self.of_stiffness,
+            "M-24" => dense::NOISE_FACTOR * self.of_eigenvalue,
+            _ => return,
+        };
+        let [limit, all] = MOST_EXCUSED.map(|most| data.min(most));
+        check.limits.data = check.limits.data.max(limit);
+        check.fail_above = check.fail_above.max(all);
+    }
+}
+
+/// The interface dofs of each node, of which one at a time is held.
+fn held_nodes(partition: &Partition) -> Vec<Vec<usize>> {
+    let mut next = 0;
+    let of_node = |node: &InterfaceNode| {
+        // A node without directions is a list of rows.
+        let n_dofs = if node.directions.is_empty() { node.n_nodes } else { node.directions.len() };
+        next += n_dofs;
+        (next - n_dofs..next).collect()
+    };
+    partition.interface.iter().map(of_node).collect()
+}

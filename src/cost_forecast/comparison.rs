@@ -1,0 +1,100 @@
+//! What is compared of a component that moves, and what is left out because it would take longer than the reduction.
+
+use super::sizes::{Proofs, Sizes};
+use super::stage::{Need, Stage, stages};
+use super::work::{NOMINAL, Work};
+use crate::job::{AnalysisJob, Certify, Job};
+use crate::number::quantity;
+
+/// Blocks of n_B right-hand sides that the frequency response converges in.
+const RESPONSE_BLOCKS: f64 = 6.0;
+/// Work that a comparison which the job does not ask for may take on any job: half a second of the nominal machine.
+const SMALL: f64 = 0.5;
+
+/// Whether there is a band to compare in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Band {
+    /// The scene states one, or modes that are kept do.
+    Known,
+    /// Nothing gives one.
+    None,
+}
+
+/// The two comparisons of what moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparisons {
+    /// Frequencies under other boundaries.
+    pub frequencies: Stage,
+    /// The frequency response.
+    pub response: Stage,
+}
+
+impl Comparisons {
+    /// Whatever the scene states is compared at any cost, the rest while it costs no more than the reduction itself, by estimates on a nominal
+    /// machine: another machine compares what this one does.
+    pub fn of(job: &Job, sizes: &Sizes, band: Band) -> Self {
+        let default = Default::default();
+        let scene = job.scene.as_ref().unwrap_or(&default);
+        let accept = job.accepted();
+        let none = match (scene.analysis, band) {
+            (Some(AnalysisJob::Static), _) => Some("the scene asks for statics alone"),
+            _ if sizes.n_interface == 0.0 => Some("the component has no interface"),
+            (_, Band::None) => Some("no elastic mode is computed and the scene gives no band_hz"),
+            (_, Band::Known) => None,
+        };
+        let own: Work = stages(sizes).iter().map(|stage| stage.work).sum();
+        // A job that asks for more than a count asks for the whole comparison.
+        let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
+        let is_stated = is_full || scene.boundaries.is_some() || accept.frequency.is_some();
+        let weigh = |name, work: Work, is_stated: bool| {
+            let dear = if is_stated { None } else { dearer(work, own) };
+            match none.map(str::to_owned).or(dear) {
+                Some(why) => Stage { name, need: Need::LeftOut(why), work: Work::default() },
+                None => Stage { name, need: Need::By("the verdict"), work },
+            }
+        };
+        let n_supports = scene.boundaries.as_ref().map_or(2.0 * sizes.n_interfaces, |stated| stated.len() as f64);
+        let frequencies = weigh("frequencies under other boundaries", others(sizes, n_supports), is_stated);
+        let is_stated = is_full || scene.band_hz.is_some() || scene.damping.is_some() || accept.response_db.is_some();
+        let response = weigh("frequency response", response(sizes), is_stated);
+        Self { frequencies, response }
+    }
+
+    /// What is not compared, and why; one line where both are left out for one reason.
+    pub fn left_out(&self) -> Vec<String> {
+        match (&self.frequencies.need, &self.response.need) {
+            (Need::LeftOut(a), Need::LeftOut(b)) if a == b => {
+                vec![format!("frequencies under other boundaries and the frequency response: {a}")]
+            }
+            _ => [&self.frequencies, &self.response].into_iter().filter_map(Stage::left_out).collect(),
+        }
+    }
+}
+
+/// Frequencies under so many boundaries: an eigensolution each with the factor that is there, and one count for all.
+fn others(sizes: &Sizes, n_supports: f64) -> Work {
+    let counted = if sizes.proofs == Proofs::None { Work::default() } else { sizes.count() };
+    sizes.eigensolution(sizes.n_modes) * n_supports + counted
+}
+
+/// The frequency response: blocks of solves until the answer converges, and the residuals of all samples, with the extended basis.
+fn response(sizes: &Sizes) -> Work {
+    let n_b = sizes.n_interface;
+    let extended = sizes.n_reduced() + RESPONSE_BLOCKS * n_b;
+    sizes.solves(RESPONSE_BLOCKS * n_b)
+        + sizes.products(RESPONSE_BLOCKS * 4.0 * n_b)
+        + sizes.dense(12.0 * RESPONSE_BLOCKS * extended, n_b)
+        + sizes.dense(2.0 * extended + n_b, 2.0 * extended + n_b)
+}
+
+/// Why a comparison is left out, with its estimate, where it costs more than the reduction itself.
+fn dearer(comparison: Work, own: Work) -> Option<String> {
+    let (cost, reduction) = (comparison.seconds(&NOMINAL), own.seconds(&NOMINAL));
+    (cost > SMALL.max(reduction)).then(|| {
+        format!(
+            "it would take an estimated {} operations, {} times the work of the reduction itself; state it in [scene] to have it",
+            quantity(comparison.flops(), 2),
+            quantity(cost / reduction, 2)
+        )
+    })
+}

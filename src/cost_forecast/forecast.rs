@@ -1,0 +1,115 @@
+//! All that is known of a run before its first factorisation.
+
+use super::comparison::{Band, Comparisons};
+use super::expected::{ExpectedModes, Known};
+use super::sizes::Sizes;
+use super::stage::{Stage, stages};
+use crate::error::Warning;
+use crate::factor::Analysis;
+use crate::job::ModeSelection;
+use crate::memory_forecast::{self, Memory, Resources};
+use crate::partition::Partition;
+use crate::plan::{Mass, Plan};
+use crate::size_forecast;
+
+/// Bytes of a double.
+const DOUBLE: u64 = 8;
+/// What a file has beside its matrices: names, the job and the checks, and what each coordinate has of them.
+const DOCUMENT: u64 = 4_000;
+/// Bytes of a coordinate in the document.
+const OF_A_COORDINATE: u64 = 110;
+
+/// All that is known of a run before its first factorisation.
+#[derive(Clone, Debug)]
+pub struct Forecast {
+    /// What every rule decides.
+    pub plan: Plan,
+    /// What the cost depends on.
+    pub sizes: Sizes,
+    /// How many modes will be kept.
+    pub modes: ExpectedModes,
+    /// The stages with what each costs, the comparisons at their end.
+    pub stages: Vec<Stage>,
+    /// What the run will hold at once.
+    pub memory: Memory,
+    /// Memory that the run may use, in bytes, where there is a limit.
+    pub allowed_bytes: Option<u64>,
+    /// r.
+    pub n_coordinates: usize,
+    /// Bytes of the superelement file.
+    pub file_bytes: u64,
+    /// What is large for what was asked.
+    pub warnings: Vec<Warning>,
+}
+
+impl Forecast {
+    /// What is known of a planned run on a partitioned model, whose files have so many bytes.
+    pub fn new(
+        plan: Plan,
+        (partition, analysis): (&Partition, &Analysis),
+        modes: ExpectedModes,
+        resources: Resources,
+        text_bytes: u64,
+    ) -> Self {
+        let sizes = Sizes::of(&plan, partition, analysis, (modes.count, text_bytes));
+        let comparisons = Comparisons::of(plan.job(), &sizes, band(&plan, modes));
+        let mut stages = stages(&sizes);
+        stages.extend([comparisons.frequencies, comparisons.response]);
+        let memory = memory_forecast::expected(analysis, partition, &plan, modes.count);
+        let mut warnings = size_forecast::of_interfaces(partition);
+        if modes.known != Known::Assumed {
+            warnings.extend(size_forecast::of_modes(modes.count, plan.job()));
+        }
+        let n_coordinates = sizes.n_reduced() as usize;
+        Self {
+            allowed_bytes: resources.allowed(plan.job()),
+            file_bytes: file_bytes(&plan, partition, n_coordinates),
+            n_coordinates,
+            memory,
+            stages,
+            warnings,
+            modes,
+            sizes,
+            plan,
+        }
+    }
+
+    /// Whether the memory that the run may use can hold it.
+    pub fn fits(&self) -> bool {
+        self.allowed_bytes.is_none_or(|allowed| self.memory.total() <= allowed)
+    }
+}
+
+/// Whether there is a band to compare in.
+fn band(plan: &Plan, modes: ExpectedModes) -> Band {
+    let job = plan.job();
+    let is_stated = job.scene.as_ref().is_some_and(|scene| scene.band_hz.is_some());
+    let of_modes = match job.reduction.wanted() {
+        ModeSelection::UpTo { up_to_hz } => up_to_hz > 0.0,
+        ModeSelection::Count { .. } => modes.count > 0,
+    };
+    if is_stated || of_modes { Band::Known } else { Band::None }
+}
+
+/// Bytes of the superelement file: full matrices, rows of recovery, and a document.
+fn file_bytes(plan: &Plan, partition: &Partition, n_coordinates: usize) -> u64 {
+    let (r, job) = (n_coordinates as u64, plan.job());
+    let n_matrices = match plan.mass() {
+        Mass::Reduced => 2,
+        Mass::NotAsked => 1,
+    } + u64::from(job.has_damping())
+        + partition.matrices.len() as u64;
+    let of_a_row = match job.write.recovery.as_ref().map(|recovery| recovery.precision) {
+        Some(supel_runtime::Precision::Single) => DOUBLE / 2,
+        Some(supel_runtime::Precision::Double) | None => DOUBLE,
+    };
+    let n_rigid = plan.facts().map_or(0, |facts| facts.n_rigid) as u64;
+    // Û, its mass, gravity and the answers to loads have a row for each coordinate.
+    let narrow = 2 * n_rigid + 3 + partition.loads.count() as u64;
+    // A row, its node and direction, and the position of its node.
+    let rows = partition.recovered.rows.len() as u64;
+    DOUBLE * (n_matrices * r * r + narrow * r + partition.quantities.rows.len() as u64 * r)
+        + rows * (of_a_row * r + 3 * DOUBLE)
+        + DOCUMENT
+        + OF_A_COORDINATE * r
+}

@@ -1,0 +1,156 @@
+//! What the cost of a run depends on.
+
+use super::work::Work;
+use crate::factor::Analysis;
+use crate::job::{Boundary, Certify, Job, ModeSelection};
+use crate::partition::Partition;
+use crate::plan::{Mass, Modes, Plan, Statics};
+
+/// Bytes of a double.
+const DOUBLE: f64 = 8.0;
+/// Bytes of an entry of a sparse matrix.
+const ENTRY: f64 = 12.0;
+/// Right-hand sides that a solve and a product take at once.
+const BLOCK: f64 = 8.0;
+
+/// How far modes are proved complete.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Proofs {
+    /// Not at all.
+    None,
+    /// By a count.
+    Count,
+    /// By a count and intervals.
+    Intervals,
+}
+
+/// What the cost of a run depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sizes {
+    /// n'.
+    pub n_dofs: f64,
+    /// n_B.
+    pub n_interface: f64,
+    /// Stored entries of K and M.
+    pub entries: f64,
+    /// Entries of L.
+    pub factor_entries: f64,
+    /// Operations of a factorisation.
+    pub factor_flops: f64,
+    /// Modes that are kept.
+    pub n_modes: f64,
+    /// Other columns of Ψ_D: inertia relief, residual vectors, modes of a file.
+    pub n_answers: f64,
+    /// Interfaces by name.
+    pub n_interfaces: f64,
+    /// Bytes of the files of K and M.
+    pub text_bytes: f64,
+    /// The form of the constraint modes.
+    pub statics: Statics,
+    /// Whether an eigensolver runs.
+    pub modes: Modes,
+    /// Whether the mass is reduced.
+    pub mass: Mass,
+    /// Whether modes are asked for up to a frequency, which are counted before they are looked for.
+    pub is_band: bool,
+    /// The boundary of the modes.
+    pub boundary: Boundary,
+    /// How modes are proved.
+    pub proofs: Proofs,
+}
+
+impl Sizes {
+    /// The sizes of a planned run with so many modes; `text_bytes` are those of its files.
+    pub fn of(plan: &Plan, partition: &Partition, analysis: &Analysis, (n_modes, text_bytes): (usize, u64)) -> Self {
+        let job = plan.job();
+        let n_relief = plan.facts().map_or(0, |facts| plan.relief().motions(facts.n_rigid, facts.modes_in_file).len());
+        Self {
+            n_answers: (n_relief + partition.loads.count() + partition.expansion.count()) as f64,
+            text_bytes: text_bytes as f64,
+            statics: plan.statics(),
+            modes: plan.modes(),
+            mass: plan.mass(),
+            ..Self::of_model(job, partition, analysis, n_modes)
+        }
+    }
+
+    /// The sizes of a model with so many modes.
+    pub fn of_model(job: &Job, partition: &Partition, analysis: &Analysis, n_modes: usize) -> Self {
+        let mut names: Vec<&str> = partition.interface.iter().map(|node| node.name.as_str()).collect();
+        names.dedup();
+        Self {
+            n_dofs: partition.n_dofs() as f64,
+            n_interface: partition.n_interface() as f64,
+            entries: (partition.stiffness.nnz() + partition.mass.nnz()) as f64,
+            factor_entries: analysis.nnz_factor,
+            factor_flops: analysis.flops,
+            n_modes: n_modes as f64,
+            n_answers: 0.0,
+            n_interfaces: names.len() as f64,
+            text_bytes: 0.0,
+            statics: Statics::Stored,
+            modes: Modes::Computed,
+            mass: Mass::Reduced,
+            is_band: matches!(job.reduction.wanted(), ModeSelection::UpTo { .. }),
+            boundary: job.reduction.method.boundary(),
+            proofs: match job.certified() {
+                Certify::None => Proofs::None,
+                Certify::Count => Proofs::Count,
+                Certify::Full => Proofs::Intervals,
+            },
+        }
+    }
+
+    /// r.
+    pub fn n_reduced(&self) -> f64 {
+        self.n_interface + self.n_modes + self.n_answers
+    }
+
+    /// A factorisation.
+    pub(super) fn factor(&self) -> Work {
+        Work { factor_flops: self.factor_flops, ..Work::default() }
+    }
+
+    /// A counting factorisation.
+    pub(super) fn count(&self) -> Work {
+        Work { count_flops: self.factor_flops, ..Work::default() }
+    }
+
+    /// Solves with so many right-hand sides, in blocks: L is read forward and backward for each.
+    pub fn solves(&self, columns: f64) -> Work {
+        let solve_bytes = 2.0 * DOUBLE * self.factor_entries * (columns / BLOCK).ceil();
+        // Rows of the block are packed, unpacked and handed on.
+        let product_bytes = 6.0 * DOUBLE * self.n_dofs * columns;
+        Work { solve_bytes, product_bytes, ..Work::default() }
+    }
+
+    /// Products of one of K and M, on average, with so many columns.
+    pub fn products(&self, columns: f64) -> Work {
+        let matrix = ENTRY * 0.5 * self.entries * (columns / BLOCK).ceil();
+        Work { product_bytes: matrix + 2.0 * DOUBLE * self.n_dofs * columns, ..Work::default() }
+    }
+
+    /// XᵀY, or X C, of tall columns.
+    pub fn dense(&self, a: f64, b: f64) -> Work {
+        Work { dense_flops: 2.0 * self.n_dofs * a * b, ..Work::default() }
+    }
+
+    /// Passes over all entries of K and M.
+    pub(super) fn passes(&self, times: f64) -> Work {
+        Work { product_bytes: times * ENTRY * self.entries, ..Work::default() }
+    }
+
+    /// Columns of an eigensolution with so many modes: the iteration, with what it deflates.
+    pub(super) fn iterated(modes: f64) -> f64 {
+        const OF_A_MODE: f64 = 2.2;
+        const BESIDE: f64 = 40.0;
+        OF_A_MODE * modes + BESIDE
+    }
+
+    /// An eigensolution by solves with a factor that is there.
+    pub(super) fn eigensolution(&self, modes: f64) -> Work {
+        let columns = Self::iterated(modes);
+        // Orthogonalisation in the mass against all columns before, twice.
+        self.solves(columns) + self.products(2.0 * columns) + self.dense(columns, 2.0 * columns)
+    }
+}

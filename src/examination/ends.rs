@@ -1,0 +1,52 @@
+//! Flat faces at the ends of a component: interfaces of a mesh without groups.
+
+use crate::job::Region;
+use crate::partition::Partition;
+
+/// Nodes in a face, relative to the longest extent away from its plane: rounding of coordinates with five digits.
+const FLAT: f64 = 1e-5;
+/// Nodes that a patch has at least.
+const LEAST_NODES: usize = 3;
+
+/// A flat face that ends a component along one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndFace {
+    /// Its name: the axis and which end of it.
+    pub name: String,
+    /// Where its nodes are.
+    pub region: Region,
+    /// How many nodes it has.
+    pub n_nodes: usize,
+}
+
+/// The faces at both ends of the longest extent, where both are flat; of the next one where they are not.
+pub(super) fn end_faces(partition: &Partition) -> Vec<EndFace> {
+    let Some(sites) = partition.sites() else { return Vec::new() };
+    let mut positions: Vec<(u32, [f64; 3])> = Vec::new();
+    for (dof, site) in partition.dofs.iter().zip(sites) {
+        positions.extend(site.map(|site| (dof.node, site.position)));
+    }
+    positions.sort_by_key(|(node, _)| *node);
+    positions.dedup_by_key(|(node, _)| *node);
+    let positions: Vec<[f64; 3]> = positions.into_iter().map(|(_, position)| position).collect();
+    let end = |axis: usize, pick: fn(f64, f64) -> f64| positions.iter().map(|position| position[axis]).reduce(pick);
+    let ends = |axis: usize| Some([end(axis, f64::min)?, end(axis, f64::max)?]);
+    let mut axes: Vec<(usize, [f64; 2])> = (0..3).filter_map(|axis| Some((axis, ends(axis)?))).collect();
+    axes.sort_by(|a, b| (b.1[1] - b.1[0]).total_cmp(&(a.1[1] - a.1[0])));
+    let longest = axes.first().map_or(0.0, |(_, [low, high])| high - low);
+    let faces = |(axis, ends): &(usize, [f64; 2])| {
+        let faces =
+            [("minus", ends[0]), ("plus", ends[1])].map(|(which, at)| face(&positions, (*axis, which), (at, longest)));
+        let is_patch = |face: &EndFace| face.n_nodes >= LEAST_NODES && 2 * face.n_nodes < positions.len();
+        faces.iter().all(is_patch).then(|| faces.into())
+    };
+    axes.iter().filter(|(_, [low, high])| high > low).find_map(faces).unwrap_or_default()
+}
+
+fn face(positions: &[[f64; 3]], (axis, which): (usize, &str), (at, longest): (f64, f64)) -> EndFace {
+    let tolerance = FLAT * longest;
+    let n_nodes = positions.iter().filter(|position| (position[axis] - at).abs() <= tolerance).count();
+    let along = |value: f64| std::array::from_fn(|other| if other == axis { value } else { 0.0 });
+    let region = Region::Plane { point: along(at), normal: along(1.0), tolerance };
+    EndFace { name: format!("{which}-{}", ["x", "y", "z"][axis]), region, n_nodes }
+}

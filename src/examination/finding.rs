@@ -1,0 +1,103 @@
+//! Something that an examination found, with its remedy.
+
+use serde::Serialize;
+
+use crate::error::{Error, Warning};
+use crate::verification::catalogue;
+use crate::verification::check::Check;
+
+/// How much a finding matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    /// Worth knowing.
+    Remark,
+    /// A reduction goes on and warns.
+    Warning,
+    /// A reduction stops, or a check fails.
+    Error,
+}
+
+/// Something that was found, with what to do about it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// How much it matters.
+    pub severity: Severity,
+    /// The code of the error, the warning or the check.
+    pub code: Option<&'static str>,
+    /// What was found.
+    pub what: String,
+    /// What to do.
+    pub remedy: String,
+    /// Lines for the job, the command line or the deck of the finite element program that do it.
+    pub lines: Vec<String>,
+    /// How the examination went on, where a stage refused the model.
+    pub went_on: Option<String>,
+}
+
+impl Finding {
+    /// An error of a stage. Its message ends with what to do.
+    pub fn of_error(error: &Error, went_on: Option<&str>) -> Self {
+        let message = error.to_string();
+        let (what, advice) = match message.rsplit_once(" – ") {
+            Some((what, advice)) if !advice.starts_with("expected") => (what.to_owned(), Some(advice.to_owned())),
+            _ => (message, None),
+        };
+        let of_table =
+            || Error::CODES.iter().find(|entry| entry.code == error.code()).map(|entry| entry.remedy.to_owned());
+        Self {
+            severity: Severity::Error,
+            code: Some(error.code()),
+            what,
+            remedy: advice.or_else(of_table).unwrap_or_default(),
+            lines: lines_of(error),
+            went_on: went_on.map(str::to_owned),
+        }
+    }
+
+    /// A warning of a reduction: one sentence that ends with what to do.
+    pub(super) fn of_warning(warning: &Warning) -> Self {
+        let (what, remedy) = match warning.message.rsplit_once("; ") {
+            Some((what, remedy)) => (what.to_owned(), remedy.to_owned()),
+            None => (warning.message.clone(), String::new()),
+        };
+        let lines = match warning.code {
+            "W-DATA-PRECISION" => vec![
+                "stiffness_digits = 17       # [model] of the job, if the numbers are exact".to_owned(),
+                "mass_digits = 17".to_owned(),
+            ],
+            _ => Vec::new(),
+        };
+        Self { severity: Severity::Warning, code: Some(warning.code), what, remedy, lines, went_on: None }
+    }
+
+    /// A check that failed.
+    pub(super) fn of_check(check: &Check) -> Self {
+        let at = check.worst.as_ref().map_or_else(String::new, |worst| format!(", at {worst}"));
+        Self {
+            severity: Severity::Error,
+            code: Some(check.id),
+            what: format!("{}: not so{at}", check.name),
+            remedy: catalogue::entry(check.id).map_or_else(String::new, |entry| entry.remedy.to_owned()),
+            lines: Vec::new(),
+            went_on: None,
+        }
+    }
+}
+
+/// Lines that do what an error asks for, where lines can.
+fn lines_of(error: &Error) -> Vec<String> {
+    let lines: &[&str] = match error {
+        Error::Unsymmetric { .. } => &[
+            "symmetric = \"lower\"         # [model] of the job, or --symmetric lower: where the upper triangle is incomplete",
+            "symmetric = \"upper\"         # where the lower one is",
+        ],
+        Error::EmptyRows { .. } => &["drop_empty = true           # [model] of the job, or --drop-empty"],
+        Error::DigitsTooFew { .. } => &["stiffness_digits = 17       # [model] of the job, if its numbers are exact"],
+        Error::RotationsHeld { .. } => {
+            &["held_rotations = [\"rz\"]     # [model] of the job, with the rotations that supports do hold"]
+        }
+        _ => &[],
+    };
+    lines.iter().map(|line| (*line).to_owned()).collect()
+}

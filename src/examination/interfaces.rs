@@ -1,0 +1,137 @@
+//! Node groups of the mesh that can be interfaces.
+
+use serde::Serialize;
+
+use crate::dense;
+use crate::dofs::Nodes;
+use crate::partition::{Fit, Partition, hole, sphere};
+
+/// Dofs of an interface whose nodes keep their own: more make a superelement large.
+const MOST_DIRECT: usize = 100;
+/// Share of the model's nodes from which on a group is the model and no interface.
+const MOST_OF_MODEL: f64 = 0.5;
+/// Singular values of the six motions of a patch, relative to the largest, from which on it can carry all of them.
+const CARRIES: f64 = 1e-6;
+
+/// A node group that may be an interface.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Candidate {
+    /// Its name.
+    pub group: String,
+    /// Its nodes that have rows.
+    pub n_nodes: usize,
+    /// Its dofs.
+    pub n_dofs: usize,
+    /// How it can be coupled: `direct`, `rigid` and `average`; none where it cannot.
+    pub couplings: Vec<&'static str>,
+    /// Why it is less than good, or what it is.
+    pub remark: Option<String>,
+    /// The surface that its nodes lie on, where that is a cylinder or a sphere.
+    pub surface: Option<Surface>,
+    /// Labels of its nodes that have rows, ascending.
+    #[serde(skip)]
+    pub labels: Vec<i64>,
+}
+
+impl Candidate {
+    /// Whether it can react all six rigid-body motions by itself.
+    pub(super) fn holds_all(&self) -> bool {
+        !self.couplings.is_empty() && self.remark.is_none()
+    }
+}
+
+/// A cylinder or a sphere through the nodes of a group.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Surface {
+    /// Which of them, as a job names it.
+    pub origin: &'static str,
+    /// Where the interface node would be.
+    pub at: [f64; 3],
+    /// Radius, residual and axis.
+    #[serde(flatten)]
+    pub fit: Fit,
+}
+
+/// What the groups of a mesh are good for.
+pub(super) fn candidates(partition: &Partition, nodes: &Nodes) -> Vec<Candidate> {
+    let mut of_label = std::collections::HashMap::new();
+    for (at, dof) in partition.dofs.iter().enumerate() {
+        if let Some(dof) = dof.dof {
+            of_label.entry(dof.node).or_insert_with(Vec::new).push(at);
+        }
+    }
+    let n_nodes = of_label.len();
+    let of_group = |(name, members): (&String, &Vec<usize>)| {
+        let mut labels: Vec<i64> = members.iter().map(|member| nodes.labels[*member]).collect();
+        labels.retain(|label| of_label.contains_key(label));
+        labels.sort_unstable();
+        let dofs: Vec<usize> = labels.iter().flat_map(|label| of_label[label].iter().copied()).collect();
+        candidate(partition, name.clone(), (labels, n_nodes), &dofs)
+    };
+    nodes.groups.iter().map(of_group).collect()
+}
+
+fn candidate(partition: &Partition, group: String, (labels, of_model): (Vec<i64>, usize), dofs: &[usize]) -> Candidate {
+    let n_nodes = labels.len();
+    let nothing =
+        Candidate { group, n_nodes, n_dofs: dofs.len(), couplings: Vec::new(), remark: None, surface: None, labels };
+    let because = |remark: &str| Candidate { remark: Some(remark.to_owned()), ..nothing.clone() };
+    if dofs.is_empty() {
+        return because("none of its nodes has rows: supports took them out, or they belong to no element");
+    }
+    if n_nodes as f64 > MOST_OF_MODEL * of_model as f64 {
+        return because("it is most of the model");
+    }
+    let rank = rank(partition, dofs);
+    let mut couplings = Vec::new();
+    if dofs.len() <= MOST_DIRECT {
+        couplings.push("direct");
+    }
+    if rank == 6 && n_nodes > 1 {
+        couplings.extend(["rigid", "average"]);
+    }
+    let surface = (rank == 6).then(|| surface(&positions(partition, dofs))).flatten();
+    let remark = match (rank, n_nodes) {
+        (6, _) => None,
+        (_, 1) => Some("one node without rotations: it holds no rotation".to_owned()),
+        (rank, _) => Some(format!("it can react {rank} of six rigid-body motions: nodes in line, or too few of them")),
+    };
+    Candidate { couplings, remark, surface, ..nothing }
+}
+
+/// Where the nodes of some dofs are, each once.
+fn positions(partition: &Partition, dofs: &[usize]) -> Vec<[f64; 3]> {
+    let mut found: Vec<(u32, [f64; 3])> = Vec::new();
+    for dof in dofs.iter().map(|dof| &partition.dofs[*dof]) {
+        match dof.site {
+            Some(site) if found.last().is_none_or(|(node, _)| *node != dof.node) => {
+                found.push((dof.node, site.position))
+            }
+            _ => {}
+        }
+    }
+    found.into_iter().map(|(_, position)| position).collect()
+}
+
+/// The cylinder or the sphere that some nodes lie on; four corners lie on both, and say nothing.
+fn surface(points: &[[f64; 3]]) -> Option<Surface> {
+    /// Nodes that lie on a surface by chance: the corners of a box.
+    const BY_CHANCE: usize = 8;
+    if points.len() <= BY_CHANCE {
+        return None;
+    }
+    let as_hole = hole(points).ok().map(|(at, fit)| Surface { origin: "hole", at, fit });
+    as_hole.or_else(|| sphere(points).ok().map(|(at, fit)| Surface { origin: "sphere", at, fit }))
+}
+
+/// How many of the six unit motions some dofs tell apart.
+fn rank(partition: &Partition, dofs: &[usize]) -> usize {
+    let sites: Vec<_> = dofs.iter().filter_map(|dof| partition.dofs[*dof].site).collect();
+    if sites.is_empty() {
+        return 0;
+    }
+    let n = sites.len() as f64;
+    let centre = [0, 1, 2].map(|axis| sites.iter().map(|site| site.position[axis]).sum::<f64>() / n);
+    let rows: Vec<[f64; 6]> = sites.iter().map(|site| site.rigid_motion_about(centre)).collect();
+    dense::rank_of_rows(&rows, CARRIES)
+}

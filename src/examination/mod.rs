@@ -1,0 +1,23 @@
+//! What a pair of matrices is, on one page: `supel doctor`.
+//!
+//! A model is reduced without an interface to its lowest modes. Where a stage refuses it, the error becomes a finding with its remedy, and
+//! the run goes on without what was refused: without the nodes, without the dof map, with K and M exchanged.
+
+mod culprits;
+mod document;
+mod ends;
+mod examined;
+mod finding;
+mod interfaces;
+mod proposal;
+mod retreat;
+mod text;
+mod units;
+
+pub use culprits::{Culprit, Grounded};
+pub use examined::{Examination, Examined, N_MODES};
+pub use finding::{Finding, Severity};
+pub use interfaces::{Candidate, Surface};
+pub use proposal::proposal;
+pub use retreat::{Retreat, is_of_model};
+pub use units::UnitGuess;

@@ -1,0 +1,172 @@
+//! Compressed rows or columns as they were read, and their checks.
+
+use std::path::Path;
+
+use super::MatrixInput;
+use super::assembled::{Found, assembled, bytes_of_entry};
+use super::digits::digits_of;
+use super::format::MatrixSource;
+use super::gathering::Gathered;
+use crate::error::{Error, Result};
+use crate::number::counted;
+use crate::regular_file::digest;
+use crate::sparse::{Declared, MAX_ORDER, Triplets};
+
+/// What the pointers count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Major {
+    /// Compressed rows.
+    Rows,
+    /// Compressed columns.
+    Columns,
+}
+
+/// A sparse matrix in compressed rows or columns, not yet trusted.
+pub(super) struct Compressed {
+    major: Major,
+    /// Rows and columns as stated.
+    shape: [u64; 2],
+    pointers: Vec<i64>,
+    indices: Vec<i64>,
+    values: Vec<f64>,
+    /// What messages call pointers, indices and values, by where they are in the file.
+    names: [String; 3],
+}
+
+impl Compressed {
+    pub(super) fn new(
+        major: Major,
+        shape: [u64; 2],
+        pointers: Vec<i64>,
+        indices: Vec<i64>,
+        values: Vec<f64>,
+        names: [String; 3],
+    ) -> Self {
+        Self { major, shape, pointers, indices, values, names }
+    }
+
+    #[cfg(feature = "hdf5")]
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The number of rows of the matrix of this name, once shape, lengths and pointers are certain to fit together.
+    pub(super) fn check(&self, path: &Path, matrix: &str) -> Result<usize> {
+        let n = order(path, matrix, self.shape)? as usize;
+        if self.pointers.len() != n + 1 {
+            let expected = format!("{} values, one more than the {n} rows or columns", n + 1);
+            return Err(self.wrong_length(path, 0, self.pointers.len(), expected));
+        }
+        if self.indices.len() != self.values.len() {
+            let expected = format!("{} values, as many as {}", self.values.len(), self.names[2]);
+            return Err(self.wrong_length(path, 1, self.indices.len(), expected));
+        }
+        self.check_pointers(path)?;
+        Ok(n)
+    }
+
+    /// The matrix of this name, of entries that are declared, with values stored in so many digits at most.
+    ///
+    /// # Errors
+    /// Those of [`Compressed::check`], [`Compressed::into_triplets`] and [`assembled`].
+    pub(super) fn into_matrix(
+        self,
+        source: &MatrixSource<'_>,
+        matrix: &str,
+        (declared, stored_digits): (Declared, u32),
+    ) -> Result<MatrixInput> {
+        let path = source.file.as_path();
+        let n = self.check(path, matrix)? as u32;
+        let claim = source.allowance.claim(path);
+        claim.set(bytes_of_entry(declared) * self.values.len() as u64)?;
+        let digits = digits_of(&self.values).at_most(stored_digits);
+        let triplets = self.into_triplets(path)?.into();
+        let entries = Gathered { triplets, n_merged: 0, most_merged: 0, digits };
+        assembled(Found { n, declared, entries, written: None, digest: digest(path)? }, source, &claim)
+    }
+
+    /// The entries; indices and values are checked on the way.
+    pub(super) fn into_triplets(self, path: &Path) -> Result<Triplets> {
+        let n = self.pointers.len().saturating_sub(1);
+        let majors = majors(&self.pointers);
+        let minors = self
+            .indices
+            .iter()
+            .enumerate()
+            .map(|(position, &index)| match u32::try_from(index) {
+                Ok(minor) if (minor as usize) < n => Ok(minor),
+                _ => Err(Error::MatrixIndex {
+                    path: path.to_owned(),
+                    array: self.names[1].clone(),
+                    position,
+                    found: index,
+                    first: 0,
+                    last: n as i64 - 1,
+                }),
+            })
+            .collect::<Result<Vec<u32>>>()?;
+        let (rows, cols) = match self.major {
+            Major::Rows => (majors, minors),
+            Major::Columns => (minors, majors),
+        };
+        if let Some(entry) = self.values.iter().position(|v| !v.is_finite()) {
+            let (row, col, value) = (u64::from(rows[entry]) + 1, u64::from(cols[entry]) + 1, self.values[entry]);
+            return Err(Error::MatrixNotFinite {
+                path: path.to_owned(),
+                matrix: self.names[2].clone(),
+                row,
+                col,
+                value,
+            });
+        }
+        Ok(Triplets { rows, cols, values: self.values })
+    }
+
+    fn check_pointers(&self, path: &Path) -> Result<()> {
+        let n_entries = self.values.len() as i64;
+        let wrong = |position: usize, found: i64, expected: String| {
+            let (path, array) = (path.to_owned(), self.names[0].clone());
+            Err(Error::MatrixPointer { path, array, position, found, expected })
+        };
+        let mut previous = 0;
+        for (position, &pointer) in self.pointers.iter().enumerate() {
+            if position == 0 && pointer != 0 {
+                return wrong(position, pointer, "0".to_owned());
+            }
+            if pointer < previous {
+                return wrong(position, pointer, format!("at least {previous}, the pointer before it"));
+            }
+            previous = pointer;
+        }
+        if previous != n_entries {
+            let expected = format!("{n_entries}, the number of values in {}", self.names[2]);
+            return wrong(self.pointers.len() - 1, previous, expected);
+        }
+        Ok(())
+    }
+
+    fn wrong_length(&self, path: &Path, array: usize, found: usize, expected: String) -> Error {
+        let (path, array) = (path.to_owned(), self.names[array].clone());
+        Error::MatrixLength { path, array, found: counted(found, "value", "values"), expected }
+    }
+}
+
+/// The order of a matrix of this many rows and columns, which must be square.
+///
+/// # Errors
+/// [`Error::MatrixSize`].
+pub(super) fn order(path: &Path, matrix: &str, [n_rows, n_cols]: [u64; 2]) -> Result<u32> {
+    let limit = MAX_ORDER as u64;
+    let n = u32::try_from(n_rows).ok().filter(|_| n_rows == n_cols && (1..=limit).contains(&n_rows));
+    n.ok_or_else(|| Error::MatrixSize { path: path.to_owned(), matrix: matrix.to_owned(), n_rows, n_cols, limit })
+}
+
+/// The row or column of every entry, from checked pointers.
+fn majors(pointers: &[i64]) -> Vec<u32> {
+    let mut majors = Vec::new();
+    for (major, pair) in pointers.windows(2).enumerate() {
+        // Checked: pointers rise from zero to the number of entries, and the size fits 32 bits.
+        majors.resize(pair[1] as usize, major as u32);
+    }
+    majors
+}

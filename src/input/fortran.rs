@@ -1,0 +1,105 @@
+//! Numbers and fields as Fortran writes them.
+
+/// The longest number.
+const MAX_NUMBER: usize = 64;
+
+/// A real number: also one whose exponent is marked by D, or by its sign alone as in `1.5-101` and `7.-3`.
+pub(super) fn real(field: &[u8]) -> Option<f64> {
+    let field = field.trim_ascii();
+    let field = field.strip_prefix(b"+").unwrap_or(field);
+    fast_float2::parse(field).ok().or_else(|| marked(field))
+}
+
+fn marked(field: &[u8]) -> Option<f64> {
+    if field.len() >= MAX_NUMBER {
+        return None;
+    }
+    let mut number: Vec<u8> = field.iter().map(|&byte| if matches!(byte, b'd' | b'D') { b'e' } else { byte }).collect();
+    let sign = number.iter().skip(1).position(|byte| matches!(byte, b'+' | b'-')).map(|at| at + 1);
+    if let Some(at) = sign.filter(|_| !number.contains(&b'e') && !number.contains(&b'E')) {
+        number.insert(at, b'e');
+    }
+    fast_float2::parse(&number).ok()
+}
+
+/// A whole number.
+pub(super) fn whole(field: &[u8]) -> Option<i64> {
+    std::str::from_utf8(field.trim_ascii()).ok()?.parse().ok()
+}
+
+/// How numbers fill the lines of a file: `(4E20.12)` is four in a line, of twenty characters each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Fields {
+    pub(super) per_line: usize,
+    pub(super) width: usize,
+}
+
+impl Fields {
+    /// The fields of a format, with or without brackets and a scale.
+    pub(super) fn of(format: &[u8]) -> Option<Self> {
+        let text = std::str::from_utf8(format).ok()?.trim().trim_start_matches('(').to_ascii_uppercase();
+        let text = text.trim_start();
+        let text = match text.split_once('P') {
+            Some((scale, rest)) if scale.trim_start_matches('-').bytes().all(|byte| byte.is_ascii_digit()) => rest,
+            _ => text,
+        };
+        let text = text.trim_start_matches([',', ' ']);
+        let letter = text.find(['I', 'E', 'D', 'F', 'G'])?;
+        let per_line = if letter == 0 { 1 } else { text[..letter].trim().parse().ok()? };
+        // `ES` and `EN` are exponents of other looks.
+        let rest = text[letter + 1..].trim_start_matches(['S', 'N']);
+        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        let width: usize = rest[..end].parse().ok()?;
+        let is_sound = (1..=4096).contains(&per_line) && (1..MAX_NUMBER).contains(&width);
+        is_sound.then_some(Self { per_line, width })
+    }
+
+    /// The field at a place of a line; nothing beyond its end.
+    pub(super) fn field(self, line: &[u8], at: usize) -> &[u8] {
+        let start = (at * self.width).min(line.len());
+        &line[start..(start + self.width).min(line.len())]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_in_every_dress() {
+        for (text, value) in [
+            ("1.5D+03", 1500.0),
+            (" -1.5d-3 ", -0.0015),
+            ("+2.5E2", 250.0),
+            ("1.5-101", 1.5e-101),
+            ("7.-3", 0.007),
+            ("-7.+3", -7000.0),
+            (".5", 0.5),
+        ] {
+            assert_eq!(real(text.as_bytes()), Some(value), "{text}");
+        }
+        for text in ["", "-", "1.5-", "a", "1 2", "1-2-3"] {
+            assert_eq!(real(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn formats_of_lines() {
+        for (text, per_line, width) in [
+            ("(16I5)", 16, 5),
+            ("(4E20.12)", 4, 20),
+            ("(1P,4D25.16)", 4, 25),
+            ("(1P3E24.16E3)", 3, 24),
+            ("1P,3E24.16", 3, 24),
+            ("(1I20)  ", 1, 20),
+            ("(E25.17)", 1, 25),
+            ("5e16.9", 5, 16),
+            ("(3ES23.15)", 3, 23),
+        ] {
+            assert_eq!(Fields::of(text.as_bytes()), Some(Fields { per_line, width }), "{text}");
+        }
+        for text in ["", "(A80)", "(0I5)", "(3E)", "(99999999999999999999I5)", "(2E999)"] {
+            assert_eq!(Fields::of(text.as_bytes()), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The dof map and the nodes of a model: what each row is, and where its node is.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::allowance::Allowance;
+use super::calculix::rebuilt;
+use super::format::{DirectionBase, ReadNodes};
+use super::{InputNote, dof_map, formats};
+use crate::dofs::{DofMap, Nodes};
+use crate::error::{Error, Result};
+use crate::job::ModelJob;
+use crate::regular_file::{digest, unchanged};
+use crate::sparse::MAX_ORDER;
+
+/// Digests by the role of a file.
+pub(super) type Digests = BTreeMap<&'static str, String>;
+
+/// What each row is, and where the nodes are, as far as files of a job say it.
+pub(super) struct MapAndNodes {
+    pub(super) dofs: Option<DofMap>,
+    pub(super) nodes: Option<Nodes>,
+}
+
+/// Reads the dof map and the nodes of a model of n rows, and compares them. Where no map is given it is the one of the rows that the
+/// matrices name, in the file that names them.
+///
+/// # Errors
+/// A file that cannot be read or whose content is wrong, more data than `allowance` has room for; [`Error::DofCount`],
+/// [`Error::DofRepeated`], [`Error::DofNodeMissing`] and [`Error::DofOrderUnknown`] where they do not fit together.
+pub(super) fn map_and_nodes(
+    model: &ModelJob,
+    (n, named): (usize, Option<(&Path, DofMap)>),
+    allowance: &Allowance,
+    (digests, notes): (&mut Digests, &mut Vec<InputNote>),
+) -> Result<MapAndNodes> {
+    let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, (digests, notes))).transpose()?;
+    match (model.dofs.as_deref(), nodes, model.nodes.as_deref()) {
+        (Some(path), nodes, nodes_path) => {
+            let (dofs, of_map) = unchanged(path, || Ok((read_dofs(path, n, notes)?, digest(path)?)))?;
+            digests.insert("dofs", of_map);
+            let Some((nodes, nodes_path)) = nodes.zip(nodes_path) else {
+                dof_map::check_repeated(path, &dofs)?;
+                return Ok(MapAndNodes { dofs: Some(dofs), nodes: None });
+            };
+            let (dofs, nodes) = match rebuilt((path, &dofs), (nodes_path, &nodes), allowance)? {
+                Some(rebuilt) => {
+                    digests.extend(rebuilt.digest.map(|digest| ("dofs_data", digest)));
+                    notes.extend(rebuilt.notes);
+                    (rebuilt.dofs, rebuilt.nodes)
+                }
+                None => (dofs, nodes),
+            };
+            dof_map::check_repeated(path, &dofs)?;
+            compare(&dofs, path, (&nodes, nodes_path), notes)?;
+            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes) })
+        }
+        (None, nodes, nodes_path) if named.is_some() => {
+            let (path, dofs) = named.unwrap_or((Path::new(""), DofMap::new()));
+            notes.push(InputNote::RowsNamed { path: path.to_owned(), n });
+            if let Some((nodes, nodes_path)) = nodes.as_ref().zip(nodes_path) {
+                compare(&dofs, path, (nodes, nodes_path), notes)?;
+            }
+            Ok(MapAndNodes { dofs: Some(dofs), nodes })
+        }
+        (None, Some(nodes), Some(path)) => {
+            let dofs = dof_map::default_order(&nodes, path, n)?;
+            let dofs_per_node = n / nodes.labels.len();
+            notes.push(InputNote::DefaultOrder { dofs_per_node, nodes: path.to_owned() });
+            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes) })
+        }
+        (None, nodes, _) => Ok(MapAndNodes { dofs: None, nodes }),
+    }
+}
+
+/// Makes sure that every node of a dof map has a position.
+fn compare(dofs: &DofMap, path: &Path, (nodes, nodes_path): (&Nodes, &Path), notes: &mut Vec<InputNote>) -> Result<()> {
+    let count = dof_map::check_nodes(dofs, path, nodes, nodes_path)?;
+    if count > 0 {
+        notes.push(InputNote::UnusedNodes { path: nodes_path.to_owned(), count });
+    }
+    Ok(())
+}
+
+/// The nodes of a mesh or a table, in whatever format that is read.
+///
+/// # Errors
+/// A file that cannot be read or whose content is wrong, more data than `allowance` has room for.
+pub fn nodes(path: &Path, allowance: &Allowance) -> Result<Nodes> {
+    read_nodes(path, allowance, (&mut Digests::new(), &mut Vec::new()))
+}
+
+fn read_nodes(
+    path: &Path,
+    allowance: &Allowance,
+    (digests, notes): (&mut Digests, &mut Vec<InputNote>),
+) -> Result<Nodes> {
+    let (ReadNodes { nodes, data_digest, local_directions }, of_nodes) =
+        unchanged(path, || Ok((formats::of_nodes(path)?.read(path, allowance)?, digest(path)?)))?;
+    digests.extend(data_digest.map(|digest| ("nodes_data", digest)));
+    notes.extend(local_directions.map(|(path, line)| InputNote::Transformed { path, line }));
+    digests.insert("nodes", of_nodes);
+    refuse_out_of_range(path, &nodes)?;
+    Ok(nodes)
+}
+
+/// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.
+fn refuse_out_of_range(path: &Path, nodes: &Nodes) -> Result<()> {
+    /// Four factors of so many bits leave room for stiffness and mass.
+    const BITS: u32 = 160;
+    let sizes = nodes
+        .coordinates
+        .iter()
+        .enumerate()
+        .flat_map(|(node, point)| (0..3).map(move |axis| (node, axis, point[axis])));
+    let Some((node, axis, value)) = sizes.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) else { return Ok(()) };
+    let range = f64::from(BITS).exp2().recip()..=f64::from(BITS).exp2();
+    if value == 0.0 || range.contains(&value.abs()) {
+        return Ok(());
+    }
+    Err(Error::NodeRange { path: path.to_owned(), node: nodes.labels[node], axis, value, bits: BITS })
+}
+
+/// The dof map in which rows that a matrix names are looked up: each label is that of one row.
+///
+/// # Errors
+/// A file that cannot be read or whose content is wrong; [`Error::DofRepeated`].
+pub(super) fn dof_map_for_labels(path: &Path) -> Result<DofMap> {
+    let dofs = formats::of_dof_map(path)?.read(path, MAX_ORDER)?.dofs;
+    dof_map::check_repeated(path, &dofs)?;
+    Ok(dofs)
+}
+
+fn read_dofs(path: &Path, n: usize, notes: &mut Vec<InputNote>) -> Result<DofMap> {
+    let read = formats::of_dof_map(path)?.read(path, n)?;
+    if read.n_rows != n {
+        return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });
+    }
+    notes.extend(read.local_directions.map(|line| InputNote::GridDirections { path: path.to_owned(), line }));
+    if read.base == DirectionBase::Zero {
+        notes.push(InputNote::DirectionsFromZero { path: path.to_owned() });
+    }
+    Ok(read.dofs)
+}

@@ -1,0 +1,166 @@
+//! Natural frequencies of modes that another program computed: a number for each mode, in a file or in a list.
+//!
+//! Files are Matrix Market arrays, NumPy arrays, datasets of HDF5 files, or text with one number on each line. In text a line that
+//! begins with `#` or `%` is a comment.
+
+use std::io::{BufRead, Read};
+use std::path::{Path, PathBuf};
+
+use super::Allowance;
+use super::banner::excerpt;
+use super::decimal::Decimal;
+use super::file_start::FileStart;
+use super::fortran::real;
+use super::member::split_member;
+use super::modes_file::mode_columns;
+use super::npy_header::is_array;
+use super::source::read_error;
+use super::table::{FirstLine, open_first_line};
+use super::value_unit::ValueUnit;
+use crate::error::{Error, Result};
+
+const EXPECTED: &str = "a frequency on each line, or one line of them";
+/// The longest line of a list.
+const MAX_LINE_BYTES: u64 = 1 << 20;
+
+/// Where the numbers of modes are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ValueSource {
+    /// In a file, or in a dataset of one as in `model.h5:/omega`.
+    File(PathBuf),
+    /// Here.
+    List(Vec<f64>),
+}
+
+/// The numbers of modes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModeValues {
+    /// What they are.
+    pub unit: ValueUnit,
+    /// One for each mode.
+    pub numbers: Vec<f64>,
+    /// Half a unit of the last digit that they are written with, relative to each; rounding of double precision where they have all.
+    pub rounding: f64,
+}
+
+impl ModeValues {
+    /// Numbers as they are typed or stored.
+    pub(super) fn new(unit: ValueUnit, numbers: Vec<f64>) -> Self {
+        let rounding = rounding_of(&numbers);
+        Self { unit, numbers, rounding }
+    }
+
+    /// Reads the numbers of `n_modes` modes.
+    ///
+    /// # Errors
+    /// [`Error::ValuesFormat`] for what is no number; [`Error::ValuesCount`] where there are more or fewer than modes; those of reading
+    /// the file.
+    pub fn read(unit: ValueUnit, source: &ValueSource, n_modes: usize, allowance: &Allowance) -> Result<Self> {
+        let (numbers, path) = match source {
+            ValueSource::List(numbers) => (numbers.clone(), None),
+            ValueSource::File(path) => (of_file(path, n_modes, allowance)?, Some(path.clone())),
+        };
+        if numbers.len() != n_modes {
+            return Err(Error::ValuesCount { path, found: numbers.len() as u64, n_modes });
+        }
+        Ok(Self::new(unit, numbers))
+    }
+}
+
+/// Half a unit of the last digit of the number that has the most digits: those with fewer may end in zeros.
+fn rounding_of(numbers: &[f64]) -> f64 {
+    /// Digits that are as good as binary.
+    const ALL: u32 = 16;
+    let counted = numbers.iter().filter(|value| **value != 0.0);
+    let most = counted.map(|value| Decimal::of(*value).n_digits).max().unwrap_or(ALL);
+    if most < ALL { 0.5 * 10f64.powi(1 - most as i32) } else { f64::EPSILON }
+}
+
+fn of_file(path: &Path, n_modes: usize, allowance: &Allowance) -> Result<Vec<f64>> {
+    let (file, _) = split_member(path);
+    let start = FileStart::of(&file)?;
+    let is_list = !start.is_hdf5() && !is_array(&start.head) && !start.holds(b"%%MatrixMarket");
+    if is_list {
+        return of_text(&file, n_modes);
+    }
+    let count = |found| Error::ValuesCount { path: Some(path.to_owned()), found, n_modes };
+    let columns = mode_columns(path, n_modes, allowance).map_err(|error| match error {
+        Error::ModesRows { found, .. } => count(found),
+        Error::ModesFormat { path, line, found, .. } => Error::ValuesFormat { path, line, found, expected: EXPECTED },
+        other => other,
+    })?;
+    match columns.columns.as_slice() {
+        [numbers] => Ok(numbers.clone()),
+        several => Err(count((several.len() * n_modes) as u64)),
+    }
+}
+
+/// The numbers of a text: on lines of one each, or on one line.
+fn of_text(path: &Path, n_modes: usize) -> Result<Vec<f64>> {
+    let FirstLine { text, line, mut rest } = open_first_line(path, EXPECTED)?;
+    let wrong = |line: u64, found: String| Error::ValuesFormat {
+        path: path.to_owned(),
+        line: Some(line),
+        found: format!("`{found}`"),
+        expected: EXPECTED,
+    };
+    let mut numbers = Vec::new();
+    let mut is_column = true;
+    let mut take = |text: &str, line: u64| -> Result<()> {
+        let before = numbers.len();
+        let is_separator = |c: char| c.is_ascii_whitespace() || c == ',' || c == ';';
+        for field in text.split(is_separator).filter(|field| !field.is_empty()) {
+            let value = real(field.as_bytes()).filter(|value| value.is_finite());
+            numbers.push(value.ok_or_else(|| wrong(line, excerpt(field.as_bytes())))?);
+        }
+        let is_second = before > 0 && numbers.len() > before;
+        is_column &= numbers.len() - before <= 1;
+        if is_second && !is_column {
+            return Err(wrong(line, excerpt(text.as_bytes())));
+        }
+        // A list goes on no longer than its modes: what is too much is counted, not kept.
+        if numbers.len() > n_modes {
+            return Err(Error::ValuesCount { path: Some(path.to_owned()), found: numbers.len() as u64, n_modes });
+        }
+        Ok(())
+    };
+    if !text.starts_with('#') {
+        take(&text, line)?;
+    }
+    for at in line + 1.. {
+        let mut bytes = Vec::new();
+        let read = rest.by_ref().take(MAX_LINE_BYTES).read_until(b'\n', &mut bytes);
+        match read.map_err(|error| read_error(path, error))? as u64 {
+            0 => break,
+            MAX_LINE_BYTES => {
+                return Err(Error::LineTooLong { path: path.to_owned(), line: at, limit: MAX_LINE_BYTES as usize });
+            }
+            _ => {}
+        }
+        let text = String::from_utf8_lossy(bytes.trim_ascii()).into_owned();
+        if !text.starts_with(['#', '%']) {
+            take(&text, at)?;
+        }
+    }
+    Ok(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_with_the_most_digits_tells_the_rounding() {
+        assert_eq!(rounding_of(&[316.37, 871.2]), 0.5e-4);
+        assert_eq!(rounding_of(&[0.1 + 0.2]), f64::EPSILON);
+        assert_eq!(rounding_of(&[]), f64::EPSILON);
+    }
+
+    #[test]
+    fn a_unit_gives_the_eigenvalue() {
+        let omega = std::f64::consts::TAU * 3.0;
+        assert_eq!(ValueUnit::Hertz.eigenvalue(3.0), omega * omega);
+        assert_eq!(ValueUnit::RadPerSecond.eigenvalue(-2.0), -4.0);
+        assert_eq!(ValueUnit::Eigenvalue.eigenvalue(5.0), 5.0);
+    }
+}

@@ -1,0 +1,236 @@
+//! NumPy archives: sparse matrices of `scipy.sparse.save_npz`, and dense ones by name of `numpy.savez`.
+
+use std::path::Path;
+
+use super::MatrixInput;
+use super::archive::Archive;
+use super::assembled::Collector;
+use super::compressed::{Compressed, Major, order};
+use super::file_start::FileStart;
+use super::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
+use super::named::chosen;
+use super::numpy_array::{Array, Reals};
+use crate::error::{Error, Result};
+use crate::job::Layout;
+use crate::regular_file::digest;
+
+const FORMAT: &str = "NumPy archive";
+const EXPECTED: &str =
+    "a sparse matrix of scipy.sparse.save_npz (csr, csc, coo, bsr or dia), or square arrays of numpy.savez";
+
+/// `scipy.sparse.save_npz` and `numpy.savez`.
+pub(super) struct Npz;
+
+impl Format for Npz {
+    fn sureness(&self, start: &FileStart<'_>) -> Sureness {
+        let is_archive = start.packing.is_none() && start.head.starts_with(b"PK") && start.holds(b".npy");
+        if is_archive { Sureness::Certain } else { Sureness::Unlikely }
+    }
+}
+
+impl MatrixFormat for Npz {
+    fn layout(&self) -> Layout {
+        Layout::Npz
+    }
+
+    fn has_members(&self) -> bool {
+        true
+    }
+
+    fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+        let reading = Reading { source, archive: Archive::open(&source.file, FORMAT)? };
+        let input = if reading.archive.has("format.npy") { reading.sparse() } else { reading.dense() };
+        input.map(ReadMatrix::with_size)
+    }
+}
+
+struct Reading<'a> {
+    source: &'a MatrixSource<'a>,
+    archive: Archive<'a>,
+}
+
+impl Reading<'_> {
+    fn path(&self) -> &Path {
+        &self.source.file
+    }
+
+    /// The only matrix of an archive of SciPy.
+    fn sparse(&self) -> Result<MatrixInput> {
+        if let Some(name) = self.source.member.clone() {
+            return Err(Error::MatrixName { path: self.source.file.clone(), name, holds: Vec::new() });
+        }
+        let format = self.array("format.npy")?.text()?;
+        let [rows, columns] = self.shape()?;
+        match format.as_str() {
+            "csr" => self.compressed(Major::Rows, [rows, columns]),
+            "csc" => self.compressed(Major::Columns, [rows, columns]),
+            "coo" => self.coordinate([rows, columns]),
+            "bsr" => self.blocks([rows, columns]),
+            "dia" => self.diagonals([rows, columns]),
+            _ => Err(Error::MatrixUnread {
+                path: self.source.file.clone(),
+                format: FORMAT,
+                place: "format.npy".to_owned(),
+                found: format!("a matrix in the form {format:?}"),
+                expected: EXPECTED,
+            }),
+        }
+    }
+
+    /// One of the square arrays.
+    fn dense(&self) -> Result<MatrixInput> {
+        let names: Vec<&str> = self.archive.names().filter_map(|name| name.strip_suffix(".npy")).collect();
+        if names.is_empty() {
+            let (path, holds) = (self.source.file.clone(), self.archive.names().map(str::to_owned).collect());
+            return Err(Error::MatrixNone { path, format: FORMAT, holds, expected: EXPECTED });
+        }
+        let MatrixSource { member, role, .. } = self.source;
+        let name = format!("{}.npy", names[chosen(self.path(), &names, member.as_deref(), *role)?]);
+        let declared = role.undeclared();
+        let (entries, n, stored) = self.array(&name)?.dense(self.source, declared)?;
+        let mut input = entries.into_matrix(self.source, (n, declared), digest(self.path())?)?;
+        input.digits = input.digits.at_most(stored);
+        Ok(input)
+    }
+
+    fn array<'s>(&'s self, name: &'s str) -> Result<Array<'s, impl std::io::Read + 's>> {
+        Array::open(self.path(), FORMAT, name, self.archive.member(name)?)
+    }
+
+    fn shape(&self) -> Result<[u64; 2]> {
+        let sizes = self.array("shape.npy")?.wholes()?;
+        let counts: Vec<u64> = sizes.iter().filter_map(|size| u64::try_from(*size).ok()).collect();
+        counts.try_into().map_err(|_| self.wrong("shape.npy", format!("{sizes:?}"), "two numbers, rows and columns"))
+    }
+
+    fn wrong(&self, place: &str, found: String, expected: &str) -> Error {
+        let (path, place, expected) = (self.source.file.clone(), place.to_owned(), expected.to_owned());
+        Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
+    }
+
+    fn compressed(&self, major: Major, shape: [u64; 2]) -> Result<MatrixInput> {
+        let pointers = self.array("indptr.npy")?.wholes()?;
+        let indices = self.array("indices.npy")?.wholes()?;
+        let Reals { values, digits } = self.array("data.npy")?.reals()?;
+        let names = ["indptr.npy", "indices.npy", "data.npy"].map(str::to_owned);
+        let compressed = Compressed::new(major, shape, pointers, indices, values, names);
+        compressed.into_matrix(self.source, "the matrix", (self.source.role.undeclared(), digits))
+    }
+
+    fn coordinate(&self, shape: [u64; 2]) -> Result<MatrixInput> {
+        let n = order(self.path(), "the matrix", shape)?;
+        let [rows, columns] = if self.archive.has("coords.npy") {
+            let mut rows = self.array("coords.npy")?.wholes()?;
+            let columns = rows.split_off(rows.len() / 2);
+            [rows, columns]
+        } else {
+            [self.array("row.npy")?.wholes()?, self.array("col.npy")?.wholes()?]
+        };
+        let Reals { values, digits } = self.array("data.npy")?.reals()?;
+        if rows.len() != values.len() || columns.len() != values.len() {
+            let found = format!("{} values for {} rows and {} columns", values.len(), rows.len(), columns.len());
+            return Err(self.wrong("data.npy", found, "as many of each"));
+        }
+        let mut entries = self.collector();
+        for (at, value) in values.iter().enumerate() {
+            let row = self.index("row.npy", at, rows[at], n)?;
+            self.push(&mut entries, [row, self.index("col.npy", at, columns[at], n)?], *value)?;
+        }
+        self.finished(entries, n, digits)
+    }
+
+    /// Blocks of rows and columns, compressed by rows.
+    fn blocks(&self, shape: [u64; 2]) -> Result<MatrixInput> {
+        let n = order(self.path(), "the matrix", shape)?;
+        let pointers = self.array("indptr.npy")?.wholes()?;
+        let indices = self.array("indices.npy")?.wholes()?;
+        let data = self.array("data.npy")?;
+        let shape = data.header.shape.clone();
+        let Reals { values, digits } = data.reals()?;
+        let size = match shape[..] {
+            [n_blocks, high, wide] if high == wide && high > 0 && n_blocks == indices.len() as u64 => high,
+            _ => {
+                return Err(self.wrong(
+                    "data.npy",
+                    format!("the shape {shape:?}"),
+                    "square blocks, one for each index",
+                ));
+            }
+        };
+        if u64::from(n) % size != 0 {
+            return Err(self.wrong(
+                "data.npy",
+                format!("blocks of {size} rows"),
+                "a divisor of the order of the matrix",
+            ));
+        }
+        let n_rows = (u64::from(n) / size) as u32;
+        // The blocks as entries of a matrix of blocks: its pointers and indices are checked there.
+        let positions = (0..indices.len()).map(|at| at as f64).collect();
+        let names = ["indptr.npy", "indices.npy", "data.npy"].map(str::to_owned);
+        let of_blocks = Compressed::new(Major::Rows, [n_rows.into(); 2], pointers, indices, positions, names);
+        of_blocks.check(self.path(), "the matrix")?;
+        let mut entries = self.collector();
+        let size = size as usize;
+        for (block_row, block_col, position) in of_blocks.into_triplets(self.path())?.iter() {
+            let block = &values[position as usize * size * size..][..size * size];
+            for (at, value) in block.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+                let (row, col) = (block_row as usize * size + at / size, block_col as usize * size + at % size);
+                self.push(&mut entries, [row as u32, col as u32], *value)?;
+            }
+        }
+        self.finished(entries, n, digits)
+    }
+
+    /// Diagonals: the value in column j of row d belongs to column j of the matrix and to the row j − offset.
+    fn diagonals(&self, shape: [u64; 2]) -> Result<MatrixInput> {
+        let n = order(self.path(), "the matrix", shape)?;
+        let offsets = self.array("offsets.npy")?.wholes()?;
+        let data = self.array("data.npy")?;
+        let shape = data.header.shape.clone();
+        let Reals { values, digits } = data.reals()?;
+        let length = match shape[..] {
+            [n_diagonals, length] if n_diagonals == offsets.len() as u64 => length,
+            _ => return Err(self.wrong("data.npy", format!("the shape {shape:?}"), "a row for each offset")),
+        };
+        let mut entries = self.collector();
+        for (diagonal, offset) in offsets.iter().enumerate() {
+            for col in 0..length.min(n.into()) {
+                let row = (col as i64).checked_sub(*offset).and_then(|row| u32::try_from(row).ok());
+                let value = values[diagonal * length as usize + col as usize];
+                if let Some(row) = row.filter(|row| *row < n && value != 0.0) {
+                    self.push(&mut entries, [row, col as u32], value)?;
+                }
+            }
+        }
+        self.finished(entries, n, digits)
+    }
+
+    fn collector(&self) -> Collector<'_> {
+        Collector::new(self.source, self.source.role.undeclared())
+    }
+
+    fn push(&self, entries: &mut Collector<'_>, [row, col]: [u32; 2], value: f64) -> Result<()> {
+        if value.is_finite() {
+            return entries.push(row, col, value);
+        }
+        let (path, matrix) = (self.source.file.clone(), "data.npy".to_owned());
+        let (row, col) = (u64::from(row) + 1, u64::from(col) + 1);
+        Err(Error::MatrixNotFinite { path, matrix, row, col, value })
+    }
+
+    fn index(&self, array: &str, position: usize, found: i64, n: u32) -> Result<u32> {
+        let index = u32::try_from(found).ok().filter(|index| *index < n);
+        index.ok_or_else(|| {
+            let (path, array, last) = (self.source.file.clone(), array.to_owned(), i64::from(n) - 1);
+            Error::MatrixIndex { path, array, position, found, first: 0, last }
+        })
+    }
+
+    fn finished(&self, entries: Collector<'_>, n: u32, stored: u32) -> Result<MatrixInput> {
+        let declared = self.source.role.undeclared();
+        let mut input = entries.into_matrix(self.source, (n, declared), digest(self.path())?)?;
+        input.digits = input.digits.at_most(stored);
+        Ok(input)
+    }
+}

@@ -1,0 +1,229 @@
+//! The straight line: the stages of a reduction in their order, as far as somebody needs them.
+
+use crate::basis::{self, Basis};
+use crate::constraint::{self, Constrained, LooseMotions, constrained};
+use crate::coordinates;
+use crate::damping::{Damping, refuse_resistance};
+use crate::error::Result;
+use crate::factor::{Analysis, Storage};
+use crate::input::{self, Allowance, InputFacts};
+use crate::memory_forecast::{self, Resources};
+use crate::model::{self, Model};
+use crate::modes::{self, Component, ModeSource, Retained, Search, StaticSet};
+use crate::outcome::Outcome;
+use crate::output::{self, Results};
+use crate::partition::{self, CarriedMatrix, Expansion, Loads, Partition, Quantities};
+use crate::plan::{Mass, Modes, Plan};
+use crate::random::SEED;
+use crate::reduction::Reduction;
+use crate::report::Observer;
+use crate::rigid::{self, InterfaceRank, RigidBodyModes};
+use crate::verification::{self, Evidence};
+use crate::{rubin, size_forecast};
+
+/// The first four stages, which every look at the full model begins with.
+pub(crate) fn prepared(
+    plan: &Plan,
+    resources: Resources,
+    observer: &mut dyn Observer,
+) -> Result<(InputFacts, Partition)> {
+    let job = plan.job();
+    // Small dense decompositions use faer's global setting; sequential ones give the same bits on every machine.
+    faer::set_global_parallelism(faer::Par::Seq);
+
+    observer.stage("read");
+    let allowance = Allowance::of(resources.allowed(job));
+    let mut read = input::read_within(&job.model, &allowance)?;
+    let columns = input::load_columns(&job.loads, &read)?;
+    let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
+    let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
+    let matrices = input::further_matrices(job, &read, &allowance)?;
+    let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
+    let mut facts = facts.with_quantities(rows.as_ref()).with_matrices(&matrices);
+
+    observer.stage("check");
+    facts.notes.extend(model::add_masses(&mut read, &job.added_masses)?);
+    let model = Model::new(read)?;
+
+    observer.stage("coordinates");
+    let tied = partition::nodes_of_patches(&model, &job.interfaces);
+    facts.notes.extend(partition::reference_nodes(&model, &job.interfaces));
+    let model = coordinates::compared(model, &job.model.held_rotations, &tied)?;
+    facts.notes.extend(coordinates::remark(&model).map(str::to_owned));
+
+    observer.stage("partition");
+    let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
+    let faces = input::patch_faces(&job.model, &partition::patches(&model, job), &allowance)?;
+    let (recovered, remark) = recovered.with_faces(&faces);
+    facts.notes.extend(remark);
+    let loads = partition::loads(&model, &job.loads, &columns, &faces)?;
+    let modes = modes.map(|modes| partition::expansion_modes(&model, &modes)).transpose()?;
+    let quantities = partition::quantities(&model, rows)?;
+    let matrices = partition::further_matrices(&model, matrices)?;
+    let interfaces = partition::with_faces(&job.interfaces, &faces)?;
+    facts.faces = faces.into_iter().filter(|patch| patch.is_of_interface()).collect();
+    let is_weighed = job.model.expect.is_some() || plan.holds_dofs();
+    let weight = if is_weighed { model.weight() } else { None };
+    let held = partition::held(&model, &job.fixed)?;
+    let mut partition = Partition::in_scene(model, &interfaces, held, (plan.statements(), plan.parting()))?;
+    partition.recovered = recovered;
+    partition.quantities = Quantities::carried(quantities, &partition.transformation);
+    partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
+    partition.loads = Loads::carried(loads, &partition.transformation)?;
+    if let Some(modes) = modes {
+        partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
+    }
+    partition.model.weight = weight;
+    job.reduction.held.as_ref().map_or(Ok(()), |held| partition.hold_for_modes(held))?;
+    Ok((facts, partition))
+}
+
+/// A component before its modes: what the stages up to the constraint modes have made.
+pub(crate) struct Conditioned<'a> {
+    pub(crate) component: Component<'a>,
+    /// The plan with what the model has decided.
+    plan: &'a Plan,
+    rank: InterfaceRank,
+    loose: &'a LooseMotions,
+    storage: Storage,
+    /// Factorisations in addition to that of K_II.
+    n_other_factors: usize,
+}
+
+/// The stages from the rigid-body modes to the constraint modes, and what is made of their results.
+pub(crate) fn with_component<T>(
+    plan: &Plan,
+    partition: &Partition,
+    (resources, observer): (Resources, &mut dyn Observer),
+    then: impl FnOnce(Conditioned<'_>, &mut dyn Observer) -> Result<T>,
+) -> Result<T> {
+    size_forecast::of_interfaces(partition).iter().for_each(|warning| observer.warned(warning));
+    observer.stage("rigid-body modes");
+    // The analysis reads the pattern of the matrices alone, so that it runs at the same time.
+    let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(partition), || partition.analysis());
+    let ((rigid, n_extra), analysis) = (rigid?, analysis?);
+    let (rank, plan) = known(plan, partition, &rigid)?;
+
+    observer.stage("factor");
+    let storage = memory_forecast::storage_within_memory(&analysis, partition, &plan, resources)?;
+    let factor = constraint::interior_factor(partition, &analysis, &rigid, (storage, rank))?;
+
+    observer.stage("constraint modes");
+    let Constrained { modes: held, rigid, rank, loose, n_factorisations } =
+        constrained(partition, (&factor, plan.statics()), rigid, rank)?;
+    let component = Component::new(partition, &analysis, &factor, &rigid, held.as_ref());
+    let n_other_factors = n_extra + n_factorisations;
+    then(Conditioned { component, plan: &plan, rank, loose: &loose, storage, n_other_factors }, observer)
+}
+
+/// How well the interface reacts rigid-body motion, none where it leaves some of it free, and the plan with what the model decides.
+pub(crate) fn known(
+    plan: &Plan,
+    partition: &Partition,
+    rigid: &RigidBodyModes,
+) -> Result<(Option<InterfaceRank>, Plan)> {
+    refuse_resistance(plan.job(), partition, rigid)?;
+    let rank = rubin::rank_or_attachment(rigid::interface_rank(partition, rigid), plan)?;
+    Ok((rank, plan.knowing(rigid::facts(partition, rigid, rank))))
+}
+
+/// What the stages up to the projection have made.
+pub(crate) struct Stages<'a> {
+    /// The plan with what the model has decided.
+    plan: &'a Plan,
+    pub(crate) evidence: Evidence<'a>,
+    pub(crate) analysis: &'a Analysis,
+    loose: &'a LooseMotions,
+    /// Factorisations in addition to that of K_II.
+    n_other_factors: usize,
+}
+
+/// The stages from the rigid-body modes to the projection, and what is made of their results.
+pub(crate) fn with_stages<T>(
+    plan: &Plan,
+    partition: &Partition,
+    (resources, observer): (Resources, &mut dyn Observer),
+    then: impl FnOnce(Stages<'_>, &mut dyn Observer) -> Result<T>,
+) -> Result<T> {
+    with_component(plan, partition, (resources, observer), |conditioned, observer| {
+        with_reduction(conditioned, (resources, observer), then)
+    })
+}
+
+/// The stages from the modes to the projection.
+fn with_reduction<T>(
+    conditioned: Conditioned<'_>,
+    (resources, observer): (Resources, &mut dyn Observer),
+    then: impl FnOnce(Stages<'_>, &mut dyn Observer) -> Result<T>,
+) -> Result<T> {
+    let Conditioned { component, plan, rank, loose, storage, n_other_factors } = conditioned;
+    let (Component { partition, analysis, factor, rigid, .. }, job) = (component, plan.job());
+
+    observer.stage("modes");
+    let search = Search::new(component, &job.reduction)?;
+    let size = (storage, search.n_expected());
+    let forecast = search.n_expected().and_then(|n_modes| size_forecast::of_modes(n_modes, job));
+    forecast.iter().for_each(|warning| observer.warned(warning));
+    let at_once = memory_forecast::slices_within_memory(analysis, partition, plan, resources, size)?;
+    let found = match plan.modes() {
+        Modes::Computed => factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?,
+        Modes::NotAsked => search.nothing(),
+    };
+
+    observer.stage("certificate");
+    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.certified())?;
+    let retained = Retained::new(partition, found, search.problem.boundary);
+
+    observer.stage("basis");
+    let StaticSet { constraint, n_more } = StaticSet::of(component)?;
+    let constraint = &*constraint;
+    let answers = basis::static_answers(component, constraint);
+    let named = basis::retained_columns(component, constraint, plan.relief(), &retained);
+    let named = named.with_answers(component, answers.as_ref());
+    let basis = Basis::answering(component, constraint, &named).with_coordinates()?;
+
+    observer.stage("projection");
+    let reduction = match plan.mass() {
+        Mass::Reduced => Reduction::new(partition, &basis, rigid).with_mass_of(&job.reduction, &basis, &retained)?,
+        Mass::NotAsked => Reduction::of_statics(partition, &basis, rigid),
+    };
+    let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
+    let damping = Damping::of_reduction(job, partition, &reduction)?;
+    observer.stage("enclosures");
+    let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
+
+    let evidence = Evidence {
+        partition,
+        factor,
+        rigid,
+        rank,
+        constraint,
+        retained: &retained,
+        basis: &basis,
+        reduction: &reduction,
+        answers: answers.as_ref(),
+        rubin: rubin.as_ref(),
+        damping: damping.as_ref(),
+        certificate: certificate.as_ref(),
+        enclosures: enclosures.as_ref(),
+        expect: job.model.expect.as_ref(),
+    };
+    let n_other_factors = n_other_factors + n_more + usize::from(search.edge().is_some());
+    then(Stages { plan, evidence, analysis, loose, n_other_factors }, observer)
+}
+
+/// The stages that prove what a reduction is worth, and what is made of it.
+pub(crate) fn concluded(stages: &Stages<'_>, facts: &InputFacts, observer: &mut dyn Observer) -> Result<Outcome> {
+    let Stages { plan, evidence, analysis, loose, n_other_factors } = *stages;
+    observer.stage("verification");
+    let findings = match plan.mass() {
+        Mass::Reduced => verification::verify(&evidence)?,
+        Mass::NotAsked => verification::verify_statics(&evidence)?,
+    };
+
+    observer.stage("preservation");
+    let preserved = verification::preservation(&evidence, analysis, plan.job())?;
+    let (input, findings, preserved) = (facts, &findings, &preserved);
+    let results = Results { plan, input, loose, evidence, findings, preserved, analysis, n_other_factors };
+    output::output(&results).map(|(superelement, report)| Outcome { superelement, report })
+}

@@ -1,0 +1,13 @@
+//! What an earlier run has computed. K-23, K-24.
+
+use crate::plan::facts::Facts;
+use crate::plan::rule::Decision;
+use crate::plan::scene::Scene;
+
+pub(in crate::plan) fn k23(_: &Scene<'_>, _: Option<&Facts>) -> Decision {
+    Decision::kept("nothing of an earlier run is at hand")
+}
+
+pub(in crate::plan) fn k24(_: &Scene<'_>, _: Option<&Facts>) -> Decision {
+    Decision::kept("nothing of an earlier run is at hand")
+}

@@ -1,0 +1,135 @@
+//! `supel init`: a job that `supel reduce` accepts, proposed of a pair of matrices.
+
+use std::path::Path;
+
+use supel::cli::ExitCode;
+use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Region};
+use supel_models::transform::supported;
+use supel_testing::place::{Ended, Place, steel_brick, supel};
+
+fn init(place: &Place, rest: &str) -> Ended {
+    let word = |word: &str| if word.contains('.') { place.text(word) } else { word.to_owned() };
+    let rest: Vec<String> = rest.split_whitespace().map(word).collect();
+    let mut args = vec!["init"];
+    args.extend(rest.iter().map(String::as_str));
+    supel(&args)
+}
+
+/// The proposed job, which is one, and its text.
+#[track_caller]
+fn proposed(place: &Place, rest: &str) -> (Job, String) {
+    let text = init(place, rest).expect(ExitCode::Done).out;
+    assert!(text.lines().all(|line| line.chars().count() <= 170), "{text}");
+    let job = Job::parse(&text, Path::new("job.toml")).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    job.validate().expect("valid");
+    (job, text)
+}
+
+/// `supel init … --output proposed.toml`, then `supel reduce proposed.toml`.
+#[track_caller]
+fn reduced(place: &Place, rest: &str) -> serde_json::Value {
+    init(place, &format!("{rest} --output proposed.toml")).expect(ExitCode::Done);
+    supel(&["reduce", &place.text("proposed.toml"), "--quiet"]).expect(ExitCode::Done);
+    place.report("proposed.report.json")
+}
+
+const ALL: &str = "K.mtx M.mtx --dofs dofs.txt --nodes nodes.csv";
+
+/// Without groups the flat faces at the ends are proposed, and the job is reduced as it is.
+#[test]
+fn ends_of_a_mesh_without_groups() {
+    let place = Place::with(&steel_brick());
+    let (job, text) = proposed(&place, ALL);
+    let names: Vec<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    assert_eq!(names, ["minus-x", "plus-x"], "{text}");
+    assert!(job.interfaces.iter().all(|interface| interface.coupling == Coupling::Rigid));
+    let NodeSelection::Region { within: Region::Plane { point, normal, .. } } = &job.interfaces[1].nodes else {
+        panic!("{text}")
+    };
+    assert_eq!((point, normal), (&[1.0, 0.0, 0.0], &[1.0, 0.0, 0.0]));
+    assert_eq!((job.reduction.method, job.model.units.as_deref()), (Method::Herting, Some("m-kg-s")));
+    assert!(text.contains("lowest elastic frequencies") && text.contains("# [scene]"), "{text}");
+    let report = reduced(&place, ALL);
+    let interfaces = report["body"]["reduction"]["interfaces"].as_array().expect("interfaces");
+    assert_eq!(
+        interfaces.iter().map(|interface| interface["n_nodes"].as_u64()).collect::<Vec<_>>(),
+        [Some(9), Some(9)]
+    );
+}
+
+/// Paths are relative to the job where the files stand next to it or below, and absolute otherwise.
+#[test]
+fn paths_are_those_that_the_job_needs() {
+    let place = Place::with(&steel_brick());
+    init(&place, &format!("{ALL} --output job.toml")).expect(ExitCode::Done);
+    let text = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
+    assert!(text.contains("stiffness = \"K.mtx\"") && text.contains("superelement = \"job.supel\""), "{text}");
+    std::fs::create_dir(place.path("jobs")).expect("a folder");
+    let output = place.text("jobs/job.toml");
+    let [k, m] = ["K.mtx", "M.mtx"].map(|name| place.text(name));
+    supel(&["init", &k, &m, "--output", &output]).expect(ExitCode::Done);
+    let job = Job::read(Path::new(&output)).expect("a job");
+    assert!(job.model.stiffness.is_absolute(), "{:?}", job.model.stiffness);
+    // What is there is not replaced.
+    let ended = supel(&["init", &k, &m, "--output", &output]).expect(ExitCode::Usage);
+    assert!(ended.err.contains("E-OUTPUT-EXISTS"), "{}", ended.err);
+    let ended = supel(&["init", &k, &m, "--output", &place.text("job.txt")]).expect(ExitCode::Usage);
+    assert!(ended.err.contains(".toml"), "{}", ended.err);
+}
+
+/// Matrices alone make a job without an interface, which reduces all the same.
+#[test]
+fn matrices_alone() {
+    let place = Place::with(&steel_brick());
+    let (job, text) = proposed(&place, "K.mtx M.mtx");
+    assert_eq!((job.interfaces.len(), job.reduction.method), (0, Method::CraigBampton), "{text}");
+    assert!(text.contains("# No interface") && matches!(job.reduction.wanted(), ModeSelection::UpTo { .. }), "{text}");
+    reduced(&place, "K.mtx M.mtx");
+}
+
+/// What a stage refused is mended in the job, and said at its head.
+#[test]
+fn a_refused_pair_is_proposed_as_it_can_be_reduced() {
+    let place = Place::with(&steel_brick());
+    let (job, text) = proposed(&place, "M.mtx K.mtx --dofs dofs.txt --nodes nodes.csv");
+    assert!(
+        job.model.stiffness.ends_with("K.mtx") && job.model.mass.is_some_and(|mass| mass.ends_with("M.mtx")),
+        "{text}"
+    );
+    assert!(
+        text.contains("stiffness and mass are exchanged") && text.contains("goes on with the two files exchanged"),
+        "{text}"
+    );
+    // One that is not a pair at all has no modes.
+    let ended = init(&place, "K.mtx K.mtx").expect(ExitCode::CheckFailed);
+    assert!(ended.out.contains("check: ") && Job::parse(&ended.out, Path::new("job.toml")).is_ok(), "{}", ended.out);
+}
+
+/// Held dofs of the command line are held by the job.
+#[test]
+fn what_is_held_stays_held() {
+    let place = Place::with(&steel_brick());
+    let (job, _) = proposed(&place, &format!("{ALL} --fix foot=1,2,3:ux,uy --fix toe=7"));
+    assert_eq!(job.fixed.len(), 2);
+    assert_eq!(
+        (job.fixed[0].name.as_deref(), &job.fixed[0].nodes),
+        (Some("foot"), &NodeSelection::Labels(vec![1, 2, 3]))
+    );
+    assert_eq!((job.fixed[0].dofs.as_ref().map(Vec::len), &job.fixed[1].dofs), (Some(2), &None));
+    let held = supported(&steel_brick(), |(label, _)| label <= 9);
+    reduced(&Place::with(&held), ALL);
+}
+
+/// Groups become interfaces: a bore with its axis; a group of the whole model does not.
+#[cfg(feature = "hdf5")]
+#[test]
+fn groups_with_what_they_are() {
+    let place = Place::with_example();
+    let files = "stiffness.mtx.gz mass.mtx.gz --nodes bracket.med";
+    let (job, text) = proposed(&place, files);
+    let of = |name: &str| job.interfaces.iter().find(|interface| interface.name == name).expect(name);
+    assert_eq!((&of("EYE").origin, of("EYE").coupling), (&supel::job::Origin::Hole, Coupling::Rigid), "{text}");
+    assert!(text.contains("its nodes lie on a cylinder of radius"), "{text}");
+    assert_eq!(of("BASE").origin, supel::job::Origin::Centroid, "{text}");
+    reduced(&place, files);
+}

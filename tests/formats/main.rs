@@ -1,0 +1,4 @@
+//! The formats of other programs: matrices and meshes, each from files that those programs wrote, and from damaged ones.
+
+mod matrices;
+mod meshes;

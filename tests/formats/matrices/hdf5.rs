@@ -1,0 +1,41 @@
+//! Conventions of HDF5 that other programs wrote, and what Octave wrote in either of its MATLAB formats.
+
+use supel::error::Error;
+use supel::input::read;
+
+use super::{fixture, job, pair, stiffness};
+
+#[test]
+fn conventions_of_other_programs() {
+    let reference = pair("k.mtx", "m.mtx").expect("the reference").stiffness.matrix;
+    for name in ["julia.h5", "julia.h5:/K", "binsparse.h5"] {
+        assert!(stiffness(&fixture(name)).unwrap_or_else(|error| panic!("{name}: {error}")) == reference, "{name}");
+    }
+}
+
+/// K = [2 −1/3 0; −1/3 3 −0.5; 0 −0.5 4] and M = diag(1/7, 2, 3).
+#[test]
+fn files_of_octave() {
+    for name in ["octave.h5", "octave6.mat", "octave7.mat"] {
+        let input = read(&job(&fixture(name), &fixture(name))).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let (k, m) = (&input.stiffness.matrix, &input.mass.matrix);
+        assert_eq!((k.rows(), k.nnz(), m.nnz()), (3, 7, 3), "{name}");
+        assert_eq!((k.get(0, 1), k.get(1, 2), k.get(2, 2)), (Some(&(-1.0 / 3.0)), Some(&-0.5), Some(&4.0)), "{name}");
+        assert_eq!(m.get(0, 0), Some(&(1.0 / 7.0)), "{name}");
+    }
+}
+
+#[test]
+fn tables_of_msc_nastran() {
+    let Some(pairs) = supel_testing::corpus::corpus() else { return };
+    let folder = pairs.join("nastran_h5_dc3_SOL103_structure_only");
+    let file = folder.join("SOL103_structure_only.mtx.h5");
+    let input = read(&job(&file, &file)).expect("K and M by their names");
+    let reference = read(&job(&folder.join("K.mtx.gz"), &folder.join("M.mtx.gz"))).expect("as Matrix Market");
+    assert!(input.stiffness.matrix == reference.stiffness.matrix);
+    assert!(input.mass.matrix == reference.mass.matrix);
+    let place = |name: &str| file.with_file_name(format!("SOL103_structure_only.mtx.h5:{name}"));
+    let error = read(&job(&place("GM"), &file)).expect_err("rectangular");
+    assert!(matches!(&error, Error::MatrixSize { n_rows: 1170, n_cols: 498, .. }), "{error}");
+    assert!(matches!(read(&job(&place("KAA"), &file)), Err(Error::MatrixName { .. })));
+}

@@ -1,0 +1,237 @@
+//! Every file of the fixtures gives the matrices that it was made from, to the bit.
+
+use supel::dofs::{Direction, Dof};
+use supel::error::Error;
+use supel::input::{Digits, read};
+use supel::job::ModelJob;
+
+use super::{fixture, job, pair, stiffness};
+
+/// Files that hold K, or K and M, in doubles; of one that holds several matrices both are taken by their names alone.
+const FILES: [[&str; 2]; 23] = [
+    ["k_csr.npz", "m_csc.npz"],
+    ["k_csc.npz", "m_csc.npz"],
+    ["k_coo.npz", "m_csc.npz"],
+    ["k_bsr.npz", "m_csc.npz"],
+    ["k_dia.npz", "m_csc.npz"],
+    ["dense.npz", "dense.npz"],
+    ["dense.npz:K", "dense.npz:M"],
+    ["k.npy", "m_fortran_big.npy"],
+    ["sparse.mat", "sparse.mat"],
+    ["sparse_deflated.mat", "sparse_deflated.mat:m"],
+    ["sparse_big.mat", "m.mtx"],
+    ["dense.mat", "dense.mat"],
+    ["dense_text.op4", "dense_text.op4"],
+    ["dense_little.op4:KAA", "dense_little.op4:MAA"],
+    ["dense_big_endian.op4", "dense_big_endian.op4"],
+    ["big_text.op4", "big_text.op4"],
+    ["big_little.op4", "big_little.op4"],
+    ["big_big_endian.op4", "big_big_endian.op4"],
+    ["string_text.op4", "string_text.op4"],
+    ["string_little.op4", "string_little.op4"],
+    ["string_big_endian.op4", "string_big_endian.op4"],
+    ["wide_words.op4", "m.mtx"],
+    ["k.rsa", "m.rsa"],
+];
+
+#[test]
+fn every_bit_is_that_of_matrix_market() {
+    let reference = pair("k.mtx", "m.mtx").expect("the reference");
+    for [k, m] in FILES {
+        let input = pair(k, m).unwrap_or_else(|error| panic!("{k}, {m}: {error}"));
+        assert!(input.stiffness.matrix == reference.stiffness.matrix, "{k}: {:?}", input.stiffness.matrix);
+        assert!(input.mass.matrix == reference.mass.matrix, "{m}: {:?}", input.mass.matrix);
+        assert_eq!(input.stiffness.digits, Digits::DOUBLE, "{k}");
+        assert_eq!(input.stiffness.notes.n_duplicates, 0, "{k}");
+        assert_eq!(input.stiffness.digest.len(), 64, "{k}");
+        assert!(input.dofs.is_none(), "{k} names no rows");
+    }
+}
+
+/// `array` lists every value of a general matrix, and those from the diagonal down of a symmetric one.
+#[test]
+fn arrays_of_matrix_market() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let k = pair("k.mtx", "m.mtx").expect("the reference").stiffness.matrix;
+    let value = |row: usize, col: usize| k.get(row, col).copied().unwrap_or(0.0);
+    for (symmetry, first) in [("general", [0; 6]), ("symmetric", [0, 1, 2, 3, 4, 5])] {
+        let values: Vec<String> =
+            (0..6).flat_map(|col| (first[col]..6).map(move |row| format!("{:e}", value(row, col)))).collect();
+        let head = format!("%%MatrixMarket matrix array real {symmetry}\n% by hand\n6 6\n");
+        let path = folder.path().join("a.mtx");
+        std::fs::write(&path, head.clone() + &values.join("\n") + "\n").expect("written");
+        assert!(stiffness(&path).expect("an array") == k, "{symmetry}");
+        std::fs::write(&path, head.clone() + &values[1..].join("\n") + "\n").expect("written");
+        let n = values.len() as u64;
+        let error = stiffness(&path).expect_err("one too few");
+        assert!(
+            matches!(error, Error::EntryCount { declared, found, .. } if (declared, found) == (n, n - 1)),
+            "{error}"
+        );
+        std::fs::write(&path, head + &values.join("\n") + "\n1\n").expect("written");
+        assert!(matches!(stiffness(&path), Err(Error::EntriesSurplus { .. })), "{symmetry}");
+    }
+}
+
+fn labels(nodes: [(i64, u8); 6]) -> Vec<Option<Dof>> {
+    let dof = |(node, component): (i64, u8)| {
+        (component > 0).then(|| Dof { node, direction: Direction::ALL[usize::from(component) - 1] })
+    };
+    nodes.map(dof).to_vec()
+}
+
+/// What each row of the fixtures is: two nodes and a scalar point.
+const CHAIN: [(i64, u8); 6] = [(1, 1), (1, 2), (1, 3), (7, 1), (7, 2), (20, 0)];
+
+#[test]
+fn dmig_brings_its_dof_map() {
+    let reference = pair("k_short.mtx", "m_short.mtx").expect("the reference");
+    for [k, m] in [
+        ["k_large.pch", "m_large.pch"],
+        ["free.bdf", "m_large.pch"],
+        ["small.bdf", "small.bdf"],
+        ["small.bdf:K2PP", "small.bdf:m2pp"],
+    ] {
+        let input = pair(k, m).unwrap_or_else(|error| panic!("{k}, {m}: {error}"));
+        assert!(input.stiffness.matrix == reference.stiffness.matrix, "{k}: {:?}", input.stiffness.matrix);
+        assert!(input.mass.matrix == reference.mass.matrix, "{m}: {:?}", input.mass.matrix);
+        assert_eq!(input.dofs.as_deref(), Some(labels(CHAIN).as_slice()), "{k}");
+        assert!(!input.stiffness.notes.mirrored, "the form says that one triangle stands for both");
+    }
+    let unsymmetric = stiffness(&fixture("k.rua")).expect("whole");
+    assert!(unsymmetric == reference.stiffness.matrix);
+}
+
+/// The internal node −1 comes first, and is scalar; each pair stands once, in either order.
+#[test]
+fn matrix_lines_of_abaqus_bring_their_dof_map() {
+    let reference = pair("k.mtx", "m.mtx").expect("the reference");
+    let input = pair("k_labels.mtx", "m_labels.mtx").expect("both");
+    let place = |row: usize| if row == 5 { 0 } else { row + 1 };
+    for (of_reference, found) in
+        [(&reference.stiffness, &input.stiffness), (&reference.mass, &input.mass)].map(|(a, b)| (&a.matrix, &b.matrix))
+    {
+        assert_eq!(of_reference.nnz(), found.nnz());
+        for (value, (row, col)) in of_reference {
+            assert_eq!(found.get(place(row as usize), place(col as usize)), Some(value), "{row} {col}");
+        }
+    }
+    let mut expected = labels(CHAIN);
+    expected.rotate_right(1);
+    assert_eq!(input.dofs, Some(expected));
+    assert!(
+        input.stiffness.notes.mirrored && input.notes.iter().any(|note| note.to_string().contains("6 rows are named"))
+    );
+}
+
+/// Rows that the matrices name are put in the order of a dof map; further ones of one matrix alone are in both.
+#[test]
+fn rows_follow_the_dof_map_or_both_matrices() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    };
+    let k = write("k.mtx", "3, 1, 3, 1, 2.0\n3, 2, 3, 1, -1.0\n3, 2, 3, 2, 2.0\n");
+    let m = write("m.mtx", "3, 1, 3, 1, 4.0\n5, 1, 5, 1, 8.0\n");
+    let joined = read(&job(&k, &m)).expect("on rows of both");
+    assert_eq!(joined.stiffness.matrix.rows(), 3);
+    assert_eq!((joined.mass.matrix.get(2, 2), joined.stiffness.matrix.get(0, 1)), (Some(&8.0), Some(&-1.0)));
+    let map = write("map.csv", "node,dof\n5,1\n3,2\n3,1\n");
+    let mapped = read(&ModelJob { dofs: Some(map), ..job(&k, &m) }).expect("in the order of the map");
+    assert_eq!((mapped.mass.matrix.get(0, 0), mapped.stiffness.matrix.get(2, 2)), (Some(&8.0), Some(&2.0)));
+    assert_eq!((mapped.mass.matrix.get(2, 2), mapped.stiffness.matrix.get(1, 2)), (Some(&4.0), Some(&-1.0)));
+    let short = write("short.csv", "node,dof\n3,2\n3,1\n");
+    let error = read(&ModelJob { dofs: Some(short), ..job(&k, &m) }).expect_err("a node that the map lacks");
+    assert!(matches!(&error, Error::RowUnknown { missing, n_rows: 2, .. } if missing == &["node 5 ux"]), "{error}");
+    let bare = write("bare.mtx", "1 1 1.0\n2 2 1.0\n3 3 1.0\n");
+    let error = read(&job(&k, &bare)).expect_err("rows without a name");
+    assert!(matches!(&error, Error::RowsUnnamed { path } if path == &bare), "{error}");
+}
+
+/// What HBMAT writes next to a matrix, its equations in any order, and bulk data without EXTRN.
+#[test]
+fn dof_maps_of_ansys_and_nastran() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    };
+    let mapping = "  Matrix Eqn      Node       DOF\n      2       1     UY\n      1       1     UX\n      3       1     UZ\n\
+        4       7     UX\n      5       7     UY\n      6      20     PRES\n";
+    let of_map = |path| read(&ModelJob { dofs: Some(path), ..job(&fixture("k.rsa"), &fixture("m.rsa")) });
+    let input = of_map(write("k.mapping", mapping)).expect("a mapping");
+    assert_eq!(input.dofs, Some(labels(CHAIN)));
+    let bulk = "BEGIN BULK\nSPOINT,20\nGRID,3,,0.,0.,0.\n";
+    let error = of_map(write("a.bdf", bulk)).expect_err("seven rows");
+    assert!(matches!(error, Error::DofCount { found: 7, n: 6, .. }), "{error}");
+    let listed = "BEGIN SUPER 1\nEXTRN,1,123,7,12,20,0\n";
+    assert_eq!(of_map(write("a.pch", listed)).expect("as EXTRN lists them").dofs, Some(labels(CHAIN)));
+    for (text, words) in [
+        ("Eqn Node DOF\n1 1 UX\n2 1 UQ\n", "line 3"),
+        ("Eqn Node DOF\n1 1 UX\n3 1 UY\n", "2"),
+        ("BEGIN SUPER 1\nEXTRN,1,127\n", "components from 1 to 6"),
+    ] {
+        let error = of_map(write("wrong", text)).expect_err("no map").to_string();
+        assert!(error.contains(words) && error.contains("wrong"), "{error}");
+    }
+}
+
+#[test]
+fn packed_files_are_what_they_hold() {
+    use std::io::Write;
+    let folder = tempfile::tempdir().expect("a folder");
+    let reference = pair("k.mtx", "m.mtx").expect("the reference").stiffness.matrix;
+    for name in ["k.mtx", "dense_text.op4", "string_little.op4", "sparse.mat", "k.npy", "k.rsa"] {
+        let content = std::fs::read(fixture(name)).expect("a fixture");
+        let gzipped = {
+            let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
+            encoder.write_all(&content).and_then(|()| encoder.finish()).expect("gzipped")
+        };
+        let bzipped = {
+            let mut encoder = bzip2::write::BzEncoder::new(Vec::new(), bzip2::Compression::best());
+            encoder.write_all(&content).and_then(|()| encoder.finish()).expect("packed")
+        };
+        let frame = |part: &[u8]| ruzstd::encoding::compress_to_vec(part, ruzstd::encoding::CompressionLevel::Fastest);
+        // Two frames, and one between them that is to be skipped.
+        let (front, back) = content.split_at(content.len() / 2);
+        let skipped = [&b"\x50\x2a\x4d\x18\x03\0\0\0"[..], b"abc"].concat();
+        let zstd = [frame(front), skipped, frame(back)].concat();
+        for (packed, ending) in [(gzipped, "gz"), (bzipped, "bz2"), (zstd, "zst")] {
+            let path = folder.path().join(format!("{name}.{ending}"));
+            std::fs::write(&path, &packed).expect("written");
+            let read = stiffness(&path).unwrap_or_else(|error| panic!("{name}.{ending}: {error}"));
+            assert!(read == reference, "{name}.{ending}");
+            let cut = folder.path().join(format!("cut.{name}.{ending}"));
+            std::fs::write(&cut, &packed[..packed.len() - 6]).expect("written");
+            assert!(stiffness(&cut).is_err(), "{name}.{ending} cut short");
+        }
+    }
+}
+
+/// Nastran writes the rows of a grid point along the axes of the coordinate system that CD names.
+#[test]
+fn local_directions_of_grid_points_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("rows.bdf");
+    let warnings = |bulk: &str| -> Vec<String> {
+        std::fs::write(&path, format!("BEGIN BULK\n{bulk}\nENDDATA\n")).expect("written");
+        let job = ModelJob { dofs: Some(path.clone()), ..job(&fixture("k.mtx"), &fixture("m.mtx")) };
+        let input = read(&job).expect("a model of one grid point");
+        let notes = input.notes.iter().filter(|note| note.warning_code() == Some("W-LOCAL-DIRECTIONS"));
+        notes.map(ToString::to_string).collect()
+    };
+    for (bulk, line) in [
+        ("GRID,1,,0.,0.,0.,7", 2),
+        ("GRDSET,,,,,,7\nGRID,1,,0.,0.,0.", 2),
+        ("$ a comment\nGRID           1              0.      0.      0.       7", 3),
+    ] {
+        let found = warnings(bulk);
+        assert!(found.len() == 1 && found[0].starts_with(&format!("rows.bdf:{line}: ")), "{bulk}: {found:?}");
+    }
+    for bulk in ["GRID,1,,0.,0.,0.", "GRID,1,5,0.,0.,0.,0", "GRID,1,,0.,0.,0.,-1"] {
+        assert_eq!(warnings(bulk), Vec::<String>::new(), "{bulk}");
+    }
+}

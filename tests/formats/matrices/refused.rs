@@ -1,0 +1,144 @@
+//! Files that are refused, each by its reason.
+
+use supel::error::Error;
+use supel::input::read;
+
+use super::{error_of, fixture, job, pair};
+
+/// A file of the fixtures with one piece of its text replaced.
+fn altered(name: &str, before: &str, after: &str) -> Error {
+    let content = std::fs::read(fixture(name)).expect("a fixture");
+    let at = content.windows(before.len()).position(|part| part == before.as_bytes()).expect("the piece");
+    let content = [&content[..at], after.as_bytes(), &content[at + before.len()..]].concat();
+    error_of(name, content)
+}
+
+/// The error names the file, says this code and these words.
+fn assert_says(error: &Error, code: &str, words: &[&str]) {
+    let text = error.to_string();
+    assert_eq!(error.code(), code, "{text}");
+    assert!(words.iter().all(|word| text.contains(word)), "{text}");
+}
+
+#[test]
+fn names_that_are_not_there_or_leave_a_choice() {
+    let of = |k: &str| pair(k, "m.mtx").expect_err("an error");
+    assert_says(&of("dense_text.op4:KBB"), "E-NO-SUCH-MATRIX", &["dense_text.op4:KBB", "KAA, MAA"]);
+    assert_says(&of("k.mtx:K"), "E-NO-SUCH-MATRIX", &["k.mtx:K", "leave the colon"]);
+    assert_says(&of("k_csr.npz:K"), "E-NO-SUCH-MATRIX", &["k_csr.npz:K"]);
+    assert_says(&of("m_large.pch"), "E-MATRIX-AMBIGUOUS", &["m_large.pch", "stiffness", "MAAX"]);
+    assert_says(&of("dense.npz:other"), "E-MATRIX-UNREAD", &["other.npy", "shape [3]", "square"]);
+    assert_says(&of("sparse.mat:name"), "E-MATRIX-UNREAD", &["name", "text"]);
+    assert_says(&of("absent.op4:KAA"), "E-READ", &["absent.op4:"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("ab.npz");
+    std::fs::write(&path, renamed(&std::fs::read(fixture("dense.npz")).expect("a fixture"))).expect("written");
+    let error = read(&job(&path, &fixture("m.mtx"))).expect_err("two that could be meant");
+    assert_says(&error, "E-MATRIX-AMBIGUOUS", &["A, B, other", "as in"]);
+}
+
+/// An archive whose matrices have names that say nothing.
+fn renamed(archive: &[u8]) -> Vec<u8> {
+    let mut bytes = archive.to_vec();
+    for (before, after) in [(b"K.npy", b"A.npy"), (b"M.npy", b"B.npy")] {
+        let starts: Vec<usize> = (0..bytes.len() - 5).filter(|at| bytes[*at..at + 5] == *before).collect();
+        starts.into_iter().for_each(|at| bytes[at..at + 5].copy_from_slice(after));
+    }
+    bytes
+}
+
+#[test]
+fn dmig_of_other_kinds() {
+    for (before, after, words) in [
+        ("       6       2       0", "       6       4       0", &["line 1", "complex"][..]),
+        ("       6       2       0", "       9       2       0", &["line 1", "form 9"]),
+    ] {
+        assert_says(&altered("k_large.pch", before, after), "E-MATRIX-UNREAD", words);
+    }
+    for (before, after, words) in [
+        ("2.500000000D+00", "2.5000000x0D+00", &["line 2", "2.5000000x0D+00", "node 1 ux"][..]),
+        (
+            "*                      1               1 2.5",
+            "*                      1               9 2.5",
+            &["line 2", "\"9\""],
+        ),
+        ("2.500000000D+00", "            NaN", &["line 2", "finite"]),
+    ] {
+        assert_says(&altered("k_large.pch", before, after), "E-MATRIX-FORMAT", words);
+    }
+    let wide = error_of("a.bdf", "DMIG,K,0,2,2,0,,,1\nDMIG,K,9,1,,1,1,2.5\n");
+    assert_says(&wide, "E-MATRIX-UNREAD", &["form 2", "column node 9 ux", "rectangular"]);
+    let deck = error_of("a.bdf", "SOL 103\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\nENDDATA\n");
+    assert_says(&deck, "E-NO-MATRIX", &["a.bdf", "DMIG", "EXTSEOUT"]);
+    // Entries on both sides that differ stay what they are: the model refuses them.
+    let text = std::fs::read_to_string(fixture("free.bdf")).expect("a fixture").replacen("-0.500000", "-0.600000", 1);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("free.bdf");
+    std::fs::write(&path, text).expect("written");
+    let named = folder.path().join("free.bdf:K");
+    let matrix = read(&job(&named, &named)).expect("both triangles").stiffness.matrix;
+    assert_eq!((matrix.get(1, 0), matrix.get(0, 1)), (Some(&-0.6), Some(&-0.5)));
+}
+
+#[test]
+fn op4_of_other_kinds() {
+    let head = "       6       6       6       2";
+    for (after, code, words) in [
+        ("       6       6       6       4", "E-MATRIX-UNREAD", &["KAA", "complex"][..]),
+        ("       6       6       4       2", "E-MATRIX-UNREAD", &["form 4"]),
+        ("       6       7       6       2", "E-MATRIX-SIZE", &["7 × 6"]),
+    ] {
+        assert_says(&altered("dense_text.op4", head, after), code, words);
+    }
+    let beyond = altered("dense_text.op4", "       1       1       4", "       1       4       4");
+    assert_says(&beyond, "E-MATRIX-FORMAT", &["line 2", "rows up to 6"]);
+    let content = std::fs::read_to_string(fixture("dense_text.op4")).expect("a fixture");
+    let number = content.lines().nth(2).expect("numbers").to_owned();
+    let damaged = content.replacen(&number[1..9], "1.66x666", 1);
+    assert_says(&error_of("a.op4", damaged), "E-MATRIX-FORMAT", &["line 3", "a number in field 1"]);
+}
+
+#[test]
+fn harwell_boeing_of_other_kinds() {
+    for (letters, words) in
+        [("PSA", &["pattern"][..]), ("CSA", &["complex"]), ("RSE", &["elements"]), ("RZA", &["skew"])]
+    {
+        assert_says(&altered("k.rsa", "RSA", letters), "E-MATRIX-UNREAD", &[&[letters], words].concat());
+    }
+    assert_says(&altered("k.rsa", "1.6666666666666", "1.66666x6666666"), "E-MATRIX-FORMAT", &["line 9", "field 1"]);
+    assert_says(&altered("k.rsa", "        12        14", "        14        12"), "E-MATRIX-POINTER", &[]);
+}
+
+#[test]
+fn lines_of_abaqus_that_are_none() {
+    let first = "1, 1, 1, 1, 2.0\n";
+    for (line, words) in [
+        ("1, 1, 1, 2.0", "degree of freedom"),
+        ("1, 1, 1, 1", "five numbers"),
+        ("1, 1, 1, 1, 2.0, 3", "five numbers"),
+        ("1, 300, 1, 1, 2.0", "degree of freedom"),
+        ("1, x, 1, 1, 2.0", "degree of freedom"),
+        ("1, 1, 1, 1, NaN", "finite"),
+    ] {
+        let error = error_of("a.mtx", format!("{first}** a comment\n{line}\n"));
+        assert_says(&error, "E-MATRIX-FORMAT", &["a.mtx", "line 3", words]);
+    }
+}
+
+#[test]
+fn arrays_of_other_types_and_sizes() {
+    let npy = |descr: &str, shape: &str, bytes: usize| {
+        let header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({shape}), }}");
+        let mut content = b"\x93NUMPY\x01\0".to_vec();
+        content.extend_from_slice(&(header.len() as u16).to_le_bytes());
+        content.extend_from_slice(header.as_bytes());
+        content.resize(content.len() + bytes, 0);
+        content
+    };
+    assert_says(&error_of("a.npy", npy("<c16", "2, 2", 64)), "E-MATRIX-UNREAD", &["<c16"]);
+    assert_says(&error_of("a.npy", npy("|O", "2, 2", 64)), "E-MATRIX-UNREAD", &["save_npz"]);
+    assert_says(&error_of("a.npy", npy("<f8", "2, 3", 48)), "E-MATRIX-SIZE", &["2 × 3"]);
+    assert_says(&error_of("a.npy", npy("<f8", "2, 2", 31)), "E-MATRIX-FORMAT", &["the end after 3 numbers"]);
+    assert_says(&error_of("a.npy", npy("<f8", "2, 2", 33)), "E-MATRIX-FORMAT", &["behind the last number"]);
+    assert_says(&error_of("a.npy", npy("<f8", "99999999, 99999999", 8)), "E-MATRIX-FORMAT", &["after 1 numbers"]);
+}

@@ -1,0 +1,144 @@
+//! `supel plan`: what it says is what `supel reduce` does.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel_testing::place::{Place, supel};
+
+use crate::{CRAIG_BAMPTON, Case, HERTING, PATCH_AND_NODES, PATCHES, model};
+
+/// The plan of a case as JSON, seen to follow its schema.
+#[track_caller]
+fn planned(case: &Case, flags: &[&str]) -> Value {
+    let place = Place::with(&model());
+    place.write("job.toml", case.job().as_bytes());
+    let job = place.text("job.toml");
+    let text = supel(&[&["plan", &job, "--json"], flags].concat()).expect(ExitCode::Done).out;
+    let document: Value = serde_json::from_str(&text).expect("JSON");
+    let schema: Value = serde_json::from_str(include_str!("../../schemas/plan.schema.json")).expect("a schema");
+    let validator = jsonschema::validator_for(&schema).expect("a schema");
+    let violations: Vec<String> =
+        validator.iter_errors(&document).map(|error| format!("{}: {error}", error.instance_path())).collect();
+    assert_eq!(violations, Vec::<String>::new());
+    document
+}
+
+/// What becomes of a stage: `needed_by`, `skipped_by` or `left_out`.
+fn stage<'a>(document: &'a Value, name: &str) -> &'a Value {
+    let stages = document["stages"].as_array().expect("stages");
+    stages.iter().find(|stage| stage["name"] == name).expect("a stage of that name")
+}
+
+#[test]
+fn what_the_plan_says_is_what_the_run_does() {
+    for (method, scene, write) in [
+        (CRAIG_BAMPTON, "", ""),
+        (HERTING, "", ", recovery = { nodes = [18, 45] }"),
+        ("method = \"herting\"", "band_hz = [0, 1500]", ""),
+        (HERTING, "analysis = \"static\"\ngravity = false", ""),
+        (HERTING, "analysis = \"static\"", ""),
+        (CRAIG_BAMPTON, "unloaded = [\"tip.rx\"]\ngrounded = [\"root\"]", ""),
+    ] {
+        let case = Case { write, ..Case::new(PATCHES, method, scene) };
+        let plan = planned(&case, &[]);
+        let made = case.made();
+        let (answer, of_model) = (&plan["answer"], &plan["model"]);
+        assert_eq!(answer["n_coordinates"], made.file.n_coordinates(), "{method} {scene}");
+        assert_eq!(of_model["n_interface"], made.n_b(), "{method} {scene}");
+        assert_eq!(of_model["n_rigid"], made.file.n_rigid(), "{method} {scene}");
+        assert_eq!(plan["modes"]["count"], made.file.tensors().frequencies.len(), "{method} {scene}");
+        let bytes = made.report["run"]["file_bytes"].as_f64().expect("bytes");
+        let ratio = answer["file_bytes"].as_f64().expect("bytes") / bytes;
+        assert!((0.6..1.6).contains(&ratio), "{method} {scene}: {ratio}");
+        let assumptions: Vec<&str> =
+            plan["assumptions"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+        assert_eq!(assumptions, made.assumptions(), "{method} {scene}");
+        // Every stage of the run has its line.
+        for run in made.report["run"]["stages"].as_array().expect("stages") {
+            let name = run["name"].as_str().expect("a name");
+            let named = plan["stages"].as_array().expect("stages").iter().any(|stage| {
+                let of_plan = stage["name"].as_str().expect("a name");
+                of_plan == name || of_plan.starts_with(&format!("{name} of"))
+            });
+            assert!(named || name == "write", "{method} {scene}: {name}");
+        }
+    }
+}
+
+#[test]
+fn stages_that_a_scene_never_asks_for_are_skipped_by_their_rules() {
+    let whole = planned(&Case::new(PATCHES, HERTING, ""), &[]);
+    let statics = planned(&Case::new(PATCHES, HERTING, "analysis = \"static\"\ngravity = false"), &[]);
+    for name in ["modes", "certificate", "enclosures"] {
+        assert_eq!(stage(&statics, name)["skipped_by"], "K-1", "{name}");
+        assert_eq!(stage(&statics, name)["flops"], 0.0);
+    }
+    assert_eq!(stage(&whole, "enclosures")["skipped_by"], "K-25", "the job asks for a count");
+    assert!(stage(&whole, "modes")["needed_by"].is_string());
+    assert!(stage(&statics, "frequency response")["left_out"].as_str().expect("why").contains("statics alone"));
+    let total = |plan: &Value| plan["total"]["flops"].as_f64().expect("a number");
+    assert!(total(&statics) < total(&whole) / 2.0);
+    // The text of M is not read.
+    let read = |plan: &Value| stage(plan, "read")["bytes"].as_f64().expect("bytes");
+    assert!(read(&statics) < 0.8 * read(&whole));
+    let everything = planned(&Case::new(PATCHES, HERTING, "analysis = \"static\"\ngravity = false"), &["--no-skip"]);
+    assert!(stage(&everything, "modes")["needed_by"].is_string());
+}
+
+/// The text has what a person decides by, and no number in it depends on the machine that tests it.
+#[test]
+fn the_text_of_a_plan() {
+    let place = Place::with(&model());
+    let scene = "analysis = \"static\"\ngravity = false";
+    place.write("job.toml", Case::new(PATCH_AND_NODES, HERTING, scene).job().as_bytes());
+    let text =
+        supel(&["plan", &place.text("job.toml"), "--memory-gib", "4", "--threads", "2"]).expect(ExitCode::Done).out;
+    insta::assert_snapshot!(text);
+    let refused = supel(&["plan", &place.text("job.toml"), "--memory-gib", "0.000001"]);
+    let said = refused.out.contains("will refuse") || refused.err.contains("E-MEM") || refused.err.contains("memory");
+    assert!(said, "{}{}", refused.out, refused.err);
+}
+
+/// Modes of a band are a guess where a count would take long, and the answer says so.
+#[test]
+fn large_answers_are_announced() {
+    let plan = planned(&Case::new(PATCHES, "method = \"craig-bampton\", modes = { up_to_hz = 1e9 }", ""), &[]);
+    assert_eq!(plan["modes"]["known"], "counted");
+    assert_eq!(plan["warnings"].as_array().expect("a list").len(), 0, "240 dofs have no 400 modes");
+    let all: Vec<String> = (1..=84).filter(|label| label % 7 != 1).map(|label| label.to_string()).collect();
+    let many = format!("[[interface]]\nname = \"all\"\nnodes = [{}]\n", all.join(", "));
+    let plan = planned(&Case::new(Box::leak(many.into_boxed_str()), CRAIG_BAMPTON, ""), &[]);
+    assert_eq!(plan["warnings"][0]["code"], "W-LARGE");
+}
+
+/// How fast the machine is, is measured once for each number of threads; what cannot be read is measured again.
+#[test]
+fn the_machine_is_measured_once() {
+    let place = Place::with(&model());
+    place.write("job.toml", Case::new(PATCHES, CRAIG_BAMPTON, "").job().as_bytes());
+    let rates = |flags: &[&str]| {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+        command.args(["plan", &place.text("job.toml"), "--json"]).args(flags);
+        let ended = command.env("XDG_CACHE_HOME", place.path("cache")).output().expect("a program");
+        let document: Value = serde_json::from_slice(&ended.stdout).expect("JSON");
+        document["machine"]["rates"].clone()
+    };
+    let first = rates(&["--threads", "1"]);
+    let file = place.path("cache/supel/rates.json");
+    let kept = || -> Value { serde_json::from_slice(&std::fs::read(&file).expect("kept")).expect("JSON") };
+    assert_eq!((kept()[0]["rates"].clone(), kept().as_array().expect("a list").len()), (first.clone(), 1));
+    assert_eq!(rates(&["--threads", "1"]), first, "not measured again");
+    rates(&["--threads", "2"]);
+    assert_eq!(kept().as_array().expect("a list").len(), 2);
+    let again = rates(&["--threads", "1", "--calibrate"]);
+    assert!(again != first && kept().as_array().expect("a list").len() == 2);
+    for broken in ["[{]", "[{\"version\": 1}]", "\u{0}"] {
+        std::fs::write(&file, broken).expect("written");
+        let anew = rates(&["--threads", "1"]);
+        assert_eq!(kept()[0]["rates"], anew);
+    }
+    let mut unsound = kept();
+    unsound[0]["rates"]["solve_byte"] = (-1.0).into();
+    std::fs::write(&file, unsound.to_string()).expect("written");
+    assert!(rates(&["--threads", "1"])["solve_byte"].as_f64().expect("a number") > 0.0);
+}

@@ -1,0 +1,54 @@
+//! Scenes that cannot be heeded.
+
+use supel::cli::ExitCode;
+
+use crate::{CRAIG_BAMPTON, Case, PATCH_AND_NODES, PATCHES};
+
+#[track_caller]
+fn refused(scene: &'static str, code: ExitCode, words: &[&str]) {
+    let (place, ended) = Case::new(PATCHES, CRAIG_BAMPTON, scene).run(&[]);
+    let ended = ended.expect(code);
+    words.iter().for_each(|words| assert!(ended.err.contains(words), "{}", ended.err));
+    assert!(!place.path("x.supel").exists());
+}
+
+#[test]
+fn all_dofs_at_rest_leave_a_component_without_interface() {
+    // Held at both ends, it has modes of its own; that nothing holds it and nothing drives it is another matter.
+    let (place, ended) = Case::new(PATCHES, CRAIG_BAMPTON, "grounded = [\"root\", \"tip\"]").run(&[]);
+    ended.expect(ExitCode::Done);
+    assert_eq!(place.superelement("x.supel").n_interface(), 0);
+}
+
+#[test]
+fn names_and_contradictions() {
+    refused("grounded = [\"foot\"]", ExitCode::Usage, &["E-SCENE-PART", "`foot`"]);
+    refused("grounded = [\"root\"]\nunloaded = [\"root.rx\"]", ExitCode::Usage, &["E-SCENE-CONFLICT", "`root`"]);
+    refused("grounded = [\"root\"]\nboundaries = [\"fix:root\"]", ExitCode::Usage, &["E-SCENE-LEFT-OUT", "grounded"]);
+    refused("analysis = \"static\"\nband_hz = [0, 100]", ExitCode::Usage, &["E-SCENE-STATIC", "band_hz"]);
+}
+
+/// Modes cannot be computed with that held which the superelement does not have.
+#[test]
+fn what_is_held_for_modes_must_be_left() {
+    const MIXED: &str = "method = \"mixed-interface\", modes = { count = 4 }, held = [\"root\", \"tip.ux\"]";
+    for scene in ["grounded = [\"root\"]", "unloaded = [\"tip.ux\"]"] {
+        let (_, ended) = Case::new(PATCHES, MIXED, scene).run(&[]);
+        let ended = ended.expect(ExitCode::Usage);
+        assert!(ended.err.contains("E-SCENE-LEFT-OUT") && ended.err.contains("reduction.held"), "{}", ended.err);
+    }
+    let carried = "method = \"mixed-interface\", modes = { count = 4 }, held = [\"table\"]";
+    let scene = "prescribed = [{ name = \"table\", interfaces = [\"tip\"] }]";
+    let made = Case::new(PATCH_AND_NODES, carried, scene).made();
+    assert_eq!(made.file.metadata().modes_held, (6..12).collect::<Vec<usize>>());
+}
+
+/// One node of three dofs does not tell the rotations of a carrier.
+#[test]
+fn a_carrier_that_its_nodes_do_not_determine() {
+    let one_node = "[[interface]]\nname = \"tip\"\nnodes = [7]\n";
+    let scene = "prescribed = [{ name = \"table\", interfaces = [\"tip\"] }]";
+    let (_, ended) = Case::new(one_node, CRAIG_BAMPTON, scene).run(&[]);
+    let ended = ended.expect(ExitCode::InputData);
+    assert!(ended.err.contains("E-PATCH") && ended.err.contains("table"), "{}", ended.err);
+}
