@@ -97,7 +97,8 @@ build_release() {
 
 run_example() {
     say "supel reduce examples/bracket/job.toml"
-    target/release/supel reduce examples/bracket/job.toml
+    # The report is to appear on the terminal the second time as well.
+    target/release/supel reduce examples/bracket/job.toml --force
 }
 
 # The profile for tests is optimised and checks arithmetic for overflow, so that no release build is needed here.

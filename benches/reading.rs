@@ -1,34 +1,36 @@
-//! How long reading a matrix takes, and how much memory. Prints one JSON document.
+//! How long reading a file takes, and how much memory. Prints one JSON document.
 //!
 //! ```text
-//! cargo bench --bench reading -- FILE THREADS REPEATS
+//! cargo bench --bench reading -- FILE THREADS
 //! ```
-//! The best of the repeats; what is read is a matrix in compressed rows, both triangles stored. `benches/peers/reading.py` calls it in turn
-//! with other programs.
+//! What is read of a matrix are compressed rows, both triangles stored; of a mesh (`.inp`) its nodes and groups.
+//! `benches/peers/reading.py` calls it in turn with other programs.
 
 use std::path::PathBuf;
 use std::time::Instant;
 
-use supel::input::{Allowance, SingleMatrix};
+use supel::input::{Allowance, SingleMatrix, nodes};
 
 fn main() {
     // Cargo adds an argument of its own.
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
-    let [file, threads, repeats] = words.as_slice() else {
-        eprintln!("usage: cargo bench --bench reading -- FILE THREADS REPEATS");
+    let [file, threads] = words.as_slice() else {
+        eprintln!("usage: cargo bench --bench reading -- FILE THREADS");
         return;
     };
-    let (threads, repeats) = (threads.parse().expect("threads"), repeats.parse::<usize>().expect("repeats"));
+    let (file, threads) = (PathBuf::from(file), threads.parse().expect("threads"));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    let matrix = SingleMatrix { file: PathBuf::from(file), layout: None, dofs: None };
-    let (mut best, mut entries) = (f64::INFINITY, 0);
-    for _ in 0..repeats {
-        let start = Instant::now();
-        let read = pool.install(|| matrix.read(&Allowance::of(None))).expect("a matrix");
-        best = best.min(start.elapsed().as_secs_f64());
-        entries = read.input.matrix.nnz();
-    }
-    println!("{{\"seconds\": {best:.4}, \"entries\": {entries}, \"peak_bytes\": {}}}", peak_bytes());
+    let allowance = Allowance::of(None);
+    let is_mesh = file.extension().is_some_and(|ending| ending == "inp");
+    let start = Instant::now();
+    let items = pool.install(|| {
+        if is_mesh {
+            return nodes(&file, &allowance).expect("a mesh").labels.len();
+        }
+        SingleMatrix { file, layout: None, dofs: None }.read(&allowance).expect("a matrix").input.matrix.nnz()
+    });
+    let seconds = start.elapsed().as_secs_f64();
+    println!("{{\"seconds\": {seconds:.4}, \"items\": {items}, \"peak_bytes\": {}}}", peak_bytes());
 }
 
 /// The most memory that the process had, by the system.

@@ -19,8 +19,8 @@ use supel_runtime::{FileError, MatrixKind};
 use code::catalogued;
 use words::{
     At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, SOFTER_THAN_DIGITS, STATE_DIGITS,
-    STATE_EXACT, Suggested, at_line, column_words, forecast, groups, listed, multipliers, named_matrices, not_text,
-    of_file, place, quoted,
+    STATE_EXACT, Suggested, and_more, at_line, column_words, forecast, groups, kinetic_energy, listed, multipliers,
+    named_matrices, not_text, of_file, place, quoted,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -440,6 +440,21 @@ pub enum Error {
         /// Row and column, from 1, of an entry above the diagonal.
         upper: (u64, u64),
     },
+    /// A matrix declared skew-symmetric has an entry on its diagonal.
+    #[entry("E-SKEW-DIAGONAL", InputData, "leave the diagonal out, or declare the matrix general")]
+    #[error(
+        "{}: declared skew-symmetric – at row {row} – found {value} on the diagonal – expected none, as it would be its own \
+        negative – leave the diagonal out, or declare the matrix general",
+        path.display()
+    )]
+    SkewDiagonal {
+        /// The file.
+        path: PathBuf,
+        /// Row and column, from 1.
+        row: u64,
+        /// The entry.
+        value: f64,
+    },
     /// K and M are one matrix.
     #[entry("E-SAME-MATRIX", InputData, "give the file of the other one")]
     #[error(
@@ -720,10 +735,11 @@ pub enum Error {
         /// The library's words.
         reason: String,
     },
-    /// The HDF5 library crashes on a damaged file, in the child process that reads it first.
-    #[entry("E-HDF5-CRASH", InputData, "copy or create the file again")]
+    /// The HDF5 library crashes on a damaged file, or for want of memory, in the child process that reads it first.
+    #[entry("E-HDF5-CRASH", InputData, "copy or create the file again, or give more memory")]
     #[error(
-        "{}: a damaged HDF5 file – the HDF5 library crashes when it reads it – write or copy the file again",
+        "{}: the HDF5 library crashes when it reads it – a damaged file, or memory that ran out within the library – write or copy the \
+         file again, or give more memory",
         path.display()
     )]
     Hdf5Crash {
@@ -960,6 +976,21 @@ pub enum Error {
         role: &'static str,
         /// The matrices that could be meant.
         matrices: Vec<String>,
+    },
+    /// A file has several matrices of one name.
+    #[entry("E-SAME-NAME", InputData, "write the file anew with one of them")]
+    #[error(
+        "{}: several matrices of one name – found {n} that are called {name} – expected one – write the file anew with the one that is meant: \
+         what a second run writes behind the first stays there",
+        path.display()
+    )]
+    MatrixNameTwice {
+        /// The file.
+        path: PathBuf,
+        /// The name.
+        name: String,
+        /// How many there are.
+        n: usize,
     },
     /// A file has no matrix of the name that follows its own.
     #[entry("E-NO-SUCH-MATRIX", InputData, "give one of the names in the message after the colon")]
@@ -1627,6 +1658,19 @@ pub enum Error {
         /// Its label.
         node: i64,
     },
+    /// A file would stand beside an export as if it belonged to it.
+    #[entry("E-EXPORT-LEFT", Usage, "remove the files of the export before, or give this one another name")]
+    #[error(
+        "{}{} would stand beside the export as if it were a file of it – found a file that this export does not have – remove it, or give \
+         the export another name",
+        path.display(), and_more(*n_more)
+    )]
+    ExportLeftOver {
+        /// The file.
+        path: PathBuf,
+        /// How many others there are.
+        n_more: usize,
+    },
     /// Two outputs would be written over each other.
     #[entry("E-OUTPUT-TWICE", Usage, "give one of them another name")]
     #[error(
@@ -1640,6 +1684,37 @@ pub enum Error {
         path: PathBuf,
         /// The key of the earlier one.
         other: &'static str,
+    },
+    /// A folder whose jobs are to be reduced has none, or an assembly has no components.
+    #[entry(
+        "E-NO-JOBS",
+        Usage,
+        "name the folder of the jobs, whose names end in .toml, or give the assembly components"
+    )]
+    #[error(
+        "{}: no job in it – expected documents NAME.toml with the tables of a job, or an assembly with components – name the folder \
+         that has them",
+        path.display()
+    )]
+    NoJobs {
+        /// The folder or the assembly.
+        path: PathBuf,
+    },
+    /// The process that runs one of several jobs cannot be started, or a signal ended it.
+    #[entry(
+        "E-JOB-PROCESS",
+        Resources,
+        "run the job alone; where a signal ended it, there was probably too little memory"
+    )]
+    #[error(
+        "{}: the process of this job left no exit code: {cause} – the system ends processes when memory runs out – run the job alone",
+        document.display()
+    )]
+    JobProcess {
+        /// The job document.
+        document: PathBuf,
+        /// How it ended, or why it did not start.
+        cause: String,
     },
     /// The name of an output is taken by a folder, a pipe or a device.
     #[entry("E-OUTPUT-KIND", Io, "give the output another name")]
@@ -1722,6 +1797,8 @@ pub enum Error {
         asymmetry: f64,
         /// Row and column of the largest difference, from one, with their dofs where known.
         place: String,
+        /// Entries below and above the diagonal that have none at their mirror image.
+        unpaired: [usize; 2],
     },
     /// K and M are exchanged.
     #[entry("E-SWAPPED", InputData, "exchange the two files")]
@@ -1746,13 +1823,14 @@ pub enum Error {
     /// M gives some motion a negative kinetic energy.
     #[entry("E-INDEF-MASS", ModelPhysics, "check point masses, offsets and the coupling terms of the mass")]
     #[error(
-        "the mass matrix is indefinite – {place} – found a kinetic energy of {energy:.1e} relative to its diagonal – \
-        expected none below zero – check point masses, offsets and the coupling terms of the mass"
+        "the mass matrix is indefinite – {place} – found {} – expected none below zero – check \
+        point masses, offsets and the coupling terms of the mass",
+        kinetic_energy(*energy)
     )]
     IndefiniteMass {
         /// The entry or the dof where it is worst, in words.
         place: String,
-        /// The relative energy, negative.
+        /// The energy relative to the diagonal, negative; −∞ where a dof without mass is coupled to another one's.
         energy: f64,
     },
     /// A file of loads is no Matrix Market file of loads.
@@ -2513,15 +2591,15 @@ pub enum Error {
         /// Largest force of a unit rotation over the terms of its row.
         largest: f64,
     },
-    /// Internal forces at nodes that a rigid tie turns.
+    /// Internal forces at nodes that an average or a constraint ties to rotations.
     #[entry(
         "E-PRELOAD-TIED",
         InputData,
-        "couple nodes that have internal forces by `coupling = \"direct\"`, or keep patches and constraints away from them"
+        "couple nodes that have internal forces by `coupling = \"direct\"` or `\"rigid\"`, or keep averages and constraints away from them"
     )]
     #[error(
         "{dof} has an internal force, {} of the largest, and {tie} ties it to rotations – expected {} at most, because the arm of the force \
-        turns with the tie and its part of the stiffness is not in K – couple the node by coupling = \"direct\", or keep patches and \
+        turns with the tie, which does not say how – couple the node by coupling = \"direct\" or \"rigid\", or keep averages and \
         constraints away from it",
         quantity(*share, 2), quantity(*limit, 1)
     )]
@@ -2534,6 +2612,35 @@ pub enum Error {
         share: f64,
         /// What is allowed.
         limit: f64,
+    },
+    /// Internal forces in a rigid patch whose node moves with a carrier in some directions alone.
+    #[entry("E-PRELOAD-CARRIED", InputData, "give the patch all six directions, or leave it out of `scene.prescribed`")]
+    #[error(
+        "nodes of the interface {interface:?} have internal forces, and {carrier:?} moves its node but does not turn it – expected a patch \
+        that turns with its carrier, for what its forces do when both turn is not known – give the interface all six directions, or leave \
+        it out of scene.prescribed"
+    )]
+    PreloadCarried {
+        /// The interface.
+        interface: String,
+        /// The carrier.
+        carrier: String,
+    },
+    /// A rotation of a patch with internal forces that constraints let follow other dofs.
+    #[entry(
+        "E-PRELOAD-DEPENDENT",
+        InputData,
+        "keep constraints between nodes of a rigid patch that has internal forces out of `model.constraints`, or make the rotation an \
+        interface dof"
+    )]
+    #[error(
+        "{dof} follows other dofs by constraints, and nodes of its patch have internal forces – expected a rotation of its own, whose \
+        stiffness these forces have a part in – keep constraints on nodes of this patch out of model.constraints, or make the rotation a \
+        dof of the interface"
+    )]
+    PreloadDependent {
+        /// The rotation.
+        dof: String,
     },
     /// A preloaded component that turns with negative stiffness.
     #[entry(

@@ -62,7 +62,7 @@ pub(crate) use shape::nearest;
 pub use statements::DofUse;
 pub use support::{Support, boundary_in_words};
 pub use types::{
-    Certify, ConstraintStorage, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, ModelState, Precision,
-    RunJob, Skip, WriteJob,
+    Certify, ConstraintStorage, ConstraintsToGround, Duplicates, Expectation, Job, Mechanisms, ModelJob, ModelState,
+    Precision, RunJob, Skip, WriteJob,
 };
 pub(crate) use validation::ends_in;

@@ -145,7 +145,7 @@ use audit::{Audit, Reference};
 use cost_forecast::{Counting, ExpectedModes, Forecast};
 use error::Result;
 use job::{AcceptJob, Job};
-use line::{Stages, concluded, known, prepared, with_stages};
+use line::{Stages, known, prepared, reduced, with_component, with_stages};
 use memory_forecast::Resources;
 use outcome::Outcome;
 use partition::Partition;
@@ -169,10 +169,10 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let plan = Plan::of(job);
     // read → check → coordinates → partition
     let (facts, partition) = prepared(&plan, resources, observer)?;
-    // rigid-body modes → factor → constraint modes → modes → certificate → basis → projection → enclosures
-    with_stages(&plan, &partition, (resources, observer), |stages, observer| {
-        // verification → preservation → output
-        concluded(&stages, &facts, observer)
+    // rigid-body modes → factor → constraint modes
+    with_component(&plan, &partition, (resources, observer), |conditioned, observer| {
+        // modes → certificate → basis → projection → enclosures → verification → preservation → output
+        reduced(conditioned, &facts, (resources, observer))
     })
 }
 
@@ -208,11 +208,11 @@ pub fn verify(
         observer.stage("verification");
         return audit::of_file(superelement);
     };
-    let plan = Plan::of(job);
+    let n_modes = superelement.tensors().frequencies.len();
+    let plan = Plan::of(job).with_modes_of_file(n_modes);
     let (facts, partition) = prepared(&plan, resources, observer)?;
 
     observer.stage("reference");
-    let n_modes = superelement.tensors().frequencies.len();
     memory_forecast::comparison_within_memory(&partition, plan.job(), resources, n_modes)?;
     let reference = Reference::new(&plan, &facts, &partition)?;
 

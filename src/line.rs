@@ -7,6 +7,7 @@ use crate::damping::{Damping, refuse_resistance};
 use crate::error::Result;
 use crate::factor::{Analysis, Storage};
 use crate::input::{self, Allowance, InputFacts};
+use crate::job::ModeSelection;
 use crate::memory_forecast::{self, Resources};
 use crate::model::{self, Model};
 use crate::modes::{self, Component, ModeSource, Retained, Search, StaticSet};
@@ -62,7 +63,7 @@ pub(crate) fn prepared(
     let matrices = partition::further_matrices(&model, matrices)?;
     let interfaces = partition::with_faces(&job.interfaces, &faces)?;
     facts.faces = faces.into_iter().filter(|patch| patch.is_of_interface()).collect();
-    let is_weighed = job.model.expect.is_some() || plan.holds_dofs();
+    let is_weighed = job.model.expect.is_some() || plan.holds_dofs() || model.fit.is_preloaded();
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::in_scene(model, &interfaces, held, (plan.statements(), plan.parting()))?;
@@ -79,6 +80,7 @@ pub(crate) fn prepared(
 }
 
 /// A component before its modes: what the stages up to the constraint modes have made.
+#[derive(Clone, Copy)]
 pub(crate) struct Conditioned<'a> {
     pub(crate) component: Component<'a>,
     /// The plan with what the model has decided.
@@ -148,6 +150,47 @@ pub(crate) fn with_stages<T>(
     with_component(plan, partition, (resources, observer), |conditioned, observer| {
         with_reduction(conditioned, (resources, observer), then)
     })
+}
+
+/// The band is looked through again to this multiple where what the scene accepts is not met.
+const FURTHER: f64 = 2.0;
+/// So many bands are looked through.
+const SEARCHES: i32 = 3;
+/// Where a basis of the fewest modes errs more than foreseen, at a place of its own, it gets one mode more for so many.
+const GROWTH: usize = 8;
+
+/// The stages from the modes on: with those that the job asks for, or with the fewest that meet what its scene accepts.
+pub(crate) fn reduced(
+    conditioned: Conditioned<'_>,
+    facts: &InputFacts,
+    (resources, observer): (Resources, &mut dyn Observer),
+) -> Result<Outcome> {
+    let made = |plan: &Plan, facts: &InputFacts, observer: &mut dyn Observer| {
+        let conditioned = Conditioned { plan, ..conditioned };
+        with_reduction(conditioned, (resources, observer), |stages, observer| concluded(&stages, facts, observer))
+    };
+    let Some(first_hz) = conditioned.plan.searched_hz() else { return made(conditioned.plan, facts, observer) };
+    let mut plan = conditioned.plan.clone();
+    for n_searches in 0..SEARCHES {
+        plan = plan.keeping(ModeSelection::UpTo { up_to_hz: first_hz * FURTHER.powi(n_searches) });
+        let all = Conditioned { plan: &plan, ..conditioned };
+        let (fewest, n_all) = with_reduction(all, (resources, &mut *observer), |stages, observer| {
+            observer.stage("choice of modes");
+            let fewest = verification::fewest_modes(&stages.evidence, stages.analysis, plan.job())?;
+            Ok((fewest, stages.evidence.retained.modes.count()))
+        })?;
+        let mut next = fewest;
+        while let Some(count) = next.filter(|count| *count <= n_all) {
+            let facts = facts.remarking(format!("{count} of the {n_all} lowest modes meet what the scene accepts"));
+            let outcome = made(&plan.keeping(ModeSelection::Count { count }), &facts, observer)?;
+            if outcome.report.body.preservation.modes_are_enough() {
+                return Ok(outcome);
+            }
+            let n_kept = outcome.superelement.tensors().frequencies.len();
+            next = Some(n_kept + n_kept.div_ceil(GROWTH).max(1));
+        }
+    }
+    made(&plan, facts, observer)
 }
 
 /// The stages from the modes to the projection.

@@ -1,11 +1,11 @@
 //! Looks at a model without a reduction of it: a result of another program held against it, and what it is.
 
 use crate::certification::{
-    self, Band, Claims, Foreign, ForeignSuperelement, Interface, PairFiles, ReducedCertification, ReducedFiles,
-    ResultFiles,
+    self, Band, Claims, Foreign, ForeignSuperelement, Interface, LeftOut, Own, PairFiles, ReducedCertification,
+    ReducedFiles, ResultFiles,
 };
 use crate::error::Result;
-use crate::examination::{self, Examination, Examined, Finding};
+use crate::examination::{self, Examination, Examined};
 use crate::input::{self, Allowance, ModeValues};
 use crate::job::{Job, ModeSelection, ModesJob, ReductionJob};
 use crate::line::{Conditioned, Stages, concluded, prepared, with_component, with_stages};
@@ -53,13 +53,15 @@ fn certified_pairs(
         Some((unit, source)) => Some(ModeValues::read(*unit, source, modes.columns.len(), &allowance)?),
         None => modes.values.clone(),
     };
+    let (modes, turned) = certification::right_way_round(&partition, modes);
     let claims = Claims::of(&partition, &modes, values.as_ref())?;
     let result = ResultReport::of(&modes, values.as_ref());
     drop(modes);
 
     with_component(&Plan::of(job), &partition, (resources, observer), |Conditioned { component, .. }, observer| {
         observer.stage("certificate");
-        let certification = certification::certified_pairs(component, &job.reduction, &claims, band)?;
+        let mut certification = certification::certified_pairs(component, &job.reduction, &claims, band)?;
+        certification.notes.extend(turned.map(str::to_owned));
         let model = CertifiedModel::of(&facts, component);
         Ok(CertificationReport { generator: Generator::default(), model, result, certification })
     })
@@ -86,25 +88,45 @@ fn certified_superelement(
         band.map_or(ModeSelection::Count { count: n_modes }, |band| ModeSelection::UpTo { up_to_hz: band.to_hz });
     let reduction = ReductionJob { modes: Some(ModesJob::Computed(wanted)), ..job.reduction.clone() };
     let foreign = Foreign::of(&partition, &given, &interface)?;
-    let (model, free) = with_component(
+    let (model, free, left_out) = with_component(
         &Plan::of(job),
         &partition,
         (resources, observer),
         |Conditioned { component, .. }, observer| {
             observer.stage("certificate");
             let free = certification::compared_free(component, &reduction, &foreign, band)?;
-            Ok((CertifiedModel::of(&facts, component), free))
+            let boundary = (Own::Free, free.n_without_stiffness);
+            let left_out = certification::left_out(component, &job.reduction, (&given, &interface), boundary);
+            Ok((CertifiedModel::of(&facts, component), free, left_out))
         },
     )?;
     let mut certification = ReducedCertification::new(&foreign, &interface, free);
     let source = ReducedSource::of(&given);
     drop(partition);
+    certification.complete(match held_modes(job, (&given, &interface), (resources, observer)) {
+        Ok(None) => left_out,
+        with_held => with_held,
+    })?;
 
     if let Some(job) = certification.job_of_interface(job, interface.jobs.clone()) {
         let compared = at_interface(&job, (&given, &interface), (resources, observer));
         certification.compare(compared)?;
     }
     Ok(ReducedReport { generator: Generator::default(), model, source, certification })
+}
+
+/// What modes of the component with its interface held a superelement of another program left out; none where it has none of them.
+fn held_modes(
+    job: &Job,
+    (given, interface): (&ForeignSuperelement, &Interface),
+    (resources, observer): (Resources, &mut dyn Observer),
+) -> Result<Option<LeftOut>> {
+    let Some(job) = interface.held(job) else { return Ok(None) };
+    let (_, partition) = prepared(&Plan::of(&job), resources, observer)?;
+    with_component(&Plan::of(&job), &partition, (resources, observer), |Conditioned { component, .. }, observer| {
+        observer.stage("certificate");
+        certification::left_out(component, &job.reduction, (given, interface), (Own::Held, 0))
+    })
 }
 
 /// A superelement of another program at the interface that a job names, which is its own.
@@ -138,7 +160,7 @@ pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer))
         if next.is_none() && !examination::is_of_model(&error) {
             return Err(error);
         }
-        examination.refused(Finding::of_error(&error, next.as_ref().map(|next| next.how)));
+        examination.refused(&error, next.as_ref().map(|next| next.how));
         match next {
             Some(next) => attempt = next.job,
             None => return Ok(examination.ended(attempt, None)),
@@ -153,7 +175,7 @@ pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer))
     match reduced {
         Ok(outcome) => Ok(examination.ended(attempt, Some(outcome.report.body))),
         Err(error) if examination::is_of_model(&error) => {
-            examination.refused(Finding::of_error(&error, None));
+            examination.refused(&error, None);
             Ok(examination.ended(attempt, None))
         }
         Err(error) => Err(error),

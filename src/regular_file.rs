@@ -87,6 +87,15 @@ pub(crate) fn digest(path: &Path) -> Result<String> {
     Ok(hasher.finalize().to_hex().to_string())
 }
 
+/// One digest for several files, from theirs in the order in which they were read: that of the only one, else that of the list, one below the
+/// other.
+pub(crate) fn digest_of_list(digests: &[String]) -> String {
+    match digests {
+        [digest] => digest.clone(),
+        digests => blake3::hash(digests.join("\n").as_bytes()).to_hex().to_string(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

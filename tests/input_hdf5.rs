@@ -11,6 +11,7 @@ use supel::error::{Error, ErrorClass};
 use supel::input::MatrixInput;
 use supel::input::MatrixRole;
 use supel::input::hdf5::{read_matrix, read_nodes};
+use supel::sparse::Given;
 use tempfile::TempDir;
 
 const K: [[f64; 3]; 3] = [[2.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]];
@@ -209,8 +210,8 @@ fn single_precision_carries_seven_digits() {
 fn half_storage_is_mirrored_and_told() {
     let input = stiffness(&fixture("half.h5"), None).unwrap();
     assert_eq!(dense(&input), K);
-    assert!(input.notes.mirrored);
-    assert!(!stiffness(&fixture("plain.h5"), None).unwrap().notes.mirrored);
+    assert_eq!(input.notes.given, Given::OneTriangle);
+    assert_eq!(stiffness(&fixture("plain.h5"), None).unwrap().notes.given, Given::Whole);
 }
 
 #[test]

@@ -33,6 +33,8 @@ METHODS = (
     ("guyan, inertia relief", ["--method", "guyan", RELIEF], False, "C3", "x"),
     ("craig-bampton", ["--method", "craig-bampton"], True, "C0", "o-"),
     ("craig-bampton, inertia relief", ["--method", "craig-bampton", RELIEF], True, "C1", "^-"),
+    ("mixed-interface, base held", ["--method", "mixed-interface", "--held", "base"], True, "C5", "D-"),
+    ("macneal", ["--method", "macneal"], True, "C4", "P-"),
     ("herting", ["--method", "herting"], True, "C2", "v-"),
     ("rubin (Herting's space)", ["--method", "rubin"], True, "k", "o"),
 )

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Makes the diagrams of errors, sizes and run times, as SVG and CSV, by one command.
 
-    benches/diagrams/run.py [A B C D E H S] [--family bulky] [--dofs 10000] [--threads 2]
+    benches/diagrams/run.py [A B C D E G H S] [--family bulky] [--dofs 10000] [--threads 2]
 
 A eigen stage against eigenvalue error; B error under foreign boundaries against size; C whole job against the delivered
-frequency response; D error over eps * kappa; E growth with n; H couplings of a hole against the mesh; S a spinning beam.
+frequency response; D error over eps * kappa; E growth with n; G accepted, promised and found errors; H couplings of a hole
+against the mesh; S a spinning beam.
 
 Needs a release build of supel; parts are generated and kept in --work, Python packages come into an environment of its own
 (PEERS_VENV). --family, --dofs, --method and --repeats are of A, C and E: without options a short run on small parts; the
 documents' series is `--dofs 89000` for A and C, and
-`E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`. B leaves out what needs SUPEL_CORPUS
+`E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`. B and G leave out what needs SUPEL_CORPUS
 where that is absent, H needs CalculiX.
 """
 
@@ -24,10 +25,10 @@ from harness import environment, machine
 
 environment.enter()
 
-from diagrams import accuracy, delivered, eigen, foreign, hole, scaling, spin
+from diagrams import accepted, accuracy, delivered, eigen, foreign, hole, scaling, spin
 
 FAMILIES = ("bulky", "slender", "lattice")
-LETTERS = ("A", "B", "C", "D", "E", "H", "S")
+LETTERS = ("A", "B", "C", "D", "E", "G", "H", "S")
 
 
 def main():
@@ -56,7 +57,7 @@ def main():
                 delivered.draw(settings, family, dofs)
         if "E" in letters:
             scaling.draw(settings, family, settings.dofs or [2500, 5000, 10000])
-    for letter, diagram in (("B", foreign), ("D", accuracy), ("H", hole), ("S", spin)):
+    for letter, diagram in (("B", foreign), ("D", accuracy), ("G", accepted), ("H", hole), ("S", spin)):
         if letter in letters:
             diagram.draw(settings)
 

@@ -26,6 +26,8 @@ N_RIGID = {"free": 6, "base held": 0, "both held": 0, "mass on tip": 6}
 # A pair that responds this much less than its two driving points do is judged by them, as in M-20: symmetry uncouples such
 # pairs, and what is left of them is rounding.
 UNCOUPLED = 1e-3
+# Eigenvalues of the inverse relative to the largest that are rounding of motions without mass.
+NO_MASS = 1e-13
 # What a reduced frequency may lie below that of the full model by rounding; a reduction is stiffer otherwise.
 ROUNDING = 1e-6
 
@@ -75,7 +77,9 @@ class Pencil:
             m[N_NODE:N_B, N_NODE:N_B] += self.tip_mass
         skipped = N_RIGID[boundary]
         if not sp.issparse(k):
-            lam = scipy.linalg.eigh(k, m, eigvals_only=True) if len(k) else np.zeros(0)
+            # Of the inverse, 1 / (lambda - shift): motions without mass, as MacNeal's method has them, are at zero.
+            inverse = scipy.linalg.eigh(m, k - shift * m, eigvals_only=True) if len(k) else np.zeros(0)
+            lam = shift + 1 / inverse[inverse > NO_MASS * inverse.max(initial=0.0)]
         else:
             m = m.tocsc()
             inverse = spla.LinearOperator(k.shape, matvec=factorised(k - shift * m), dtype=float)

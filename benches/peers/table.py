@@ -85,7 +85,7 @@ def read_peer(path):
 
 def programs(arguments, folder, reference):
     count = str(arguments.modes)
-    own = [arguments.supel, "reduce", "job.toml", "--quiet", "--method", arguments.method, "--modes", count]
+    own = [arguments.supel, "reduce", "job.toml", "--force", "--quiet", "--method", arguments.method, "--modes", count]
     own += ["--threads", str(arguments.threads)]
     chosen = [Program("supel", "whole job, verified", own, folder / "part.supel", lambda: read_own(folder))]
     shift = str(reference.shift_below())

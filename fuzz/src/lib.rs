@@ -4,6 +4,7 @@
 use std::cell::RefCell;
 use std::path::Path;
 
+use supel::error::Selector;
 use supel::input::{Allowance, Patch, Patches, SingleMatrix, nodes, patch_faces, read};
 use supel::job::{Layout, ModelJob};
 
@@ -40,7 +41,7 @@ fn read_model(fill: impl FnOnce(&mut ModelJob)) {
     FOLDER.with_borrow(|folder| {
         let matrix = folder.path().join("matrix.mtx");
         std::fs::write(&matrix, MATRIX).expect("written");
-        let mut model = ModelJob { stiffness: matrix.clone(), mass: matrix, ..ModelJob::default() };
+        let mut model = ModelJob { stiffness: matrix.clone(), mass: Some(matrix), ..ModelJob::default() };
         fill(&mut model);
         if let Err(error) = read(&model) {
             assert!(!error.to_string().is_empty());
@@ -65,9 +66,8 @@ pub fn read_mesh(content: &[u8]) {
         let Ok(read) = nodes(path, &allowance).map_err(|error| assert!(!error.to_string().is_empty())) else { return };
         assert_eq!(read.labels.len(), read.coordinates.len());
         let members = read.groups.values().next().cloned().unwrap_or_else(|| vec![0]);
-        let positions = members.iter().map(|node| read.coordinates[*node]).collect();
-        let patch = Patch { interface: "patch".to_owned(), nodes: members, positions };
-        let patches = Patches { list: vec![patch], n_nodes: read.labels.len() };
+        let patch = Patch { of: Selector::Interface("patch".to_owned()), nodes: members };
+        let patches = Patches { list: vec![patch], coordinates: &read.coordinates };
         let model = ModelJob { nodes: Some(path.to_owned()), ..ModelJob::default() };
         if let Err(error) = patch_faces(&model, &patches, &allowance) {
             assert!(!error.to_string().is_empty());

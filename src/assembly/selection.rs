@@ -22,16 +22,19 @@ impl Selector<'_> {
         let (index, rest) = self.component(text)?;
         let component = &self.components[index];
         let first = self.components[..index].iter().map(Component::n_coordinates).sum();
+        // A name comes first: an interface may be called `rows:1`.
+        if let Some(wanted) = Wanted::of(rest, &component.superelement.metadata().interface_nodes) {
+            let places = nodes(component, (index, first), &wanted);
+            let what = format!("`{rest}` selects no dof of {}", component.name);
+            return if places.is_empty() {
+                Err(self.unknown(text, what, dofs(component, &wanted), ""))
+            } else {
+                Ok(places)
+            };
+        }
         match rest.strip_prefix("rows:") {
             Some(rows) => self.rows(text, (index, first), rows),
-            None => {
-                let Some(wanted) = Wanted::of(rest, &component.superelement.metadata().interface_nodes) else {
-                    return Err(self.no_interface(text, component, rest));
-                };
-                let places = nodes(component, (index, first), &wanted);
-                let what = format!("`{rest}` selects no dof of {}", component.name);
-                if places.is_empty() { Err(self.unknown(text, what, dofs(component, &wanted), "")) } else { Ok(places) }
-            }
+            None => Err(self.no_interface(text, component, rest)),
         }
     }
 

@@ -89,6 +89,7 @@ impl<'a> Content<'a> {
             (_, stated) => first_elastic(parts, stated)?,
         };
         let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
+        let n_modes = tensors.frequencies.len();
         Ok(Self {
             superelement,
             u,
@@ -97,7 +98,7 @@ impl<'a> Content<'a> {
             boundary: boundary(superelement),
             noise: noise.map_or_else(|| Noise::OfFile(by_own_bars(superelement, first)), Noise::OfModel),
             mass_rank,
-            plan: kept_job(superelement).as_ref().map(Plan::of),
+            plan: kept_job(superelement).as_ref().map(|job| Plan::of(job).with_modes_of_file(n_modes)),
             k,
             m,
             lambda,
@@ -153,6 +154,11 @@ impl<'a> Content<'a> {
     /// Whether the job kept in the file holds dofs, under which a component of any rigid-body modes has loads of gravity.
     pub(super) fn holds_dofs(&self) -> bool {
         self.plan.as_ref().is_some_and(Plan::holds_dofs)
+    }
+
+    /// Whether its stiffness is said to be the tangent of a preloaded state, whose rigid-body modes lack rotations.
+    pub(super) fn is_preloaded(&self) -> bool {
+        self.superelement.metadata().flags.contains(&Flag::Preloaded)
     }
 
     /// n_r.

@@ -327,7 +327,8 @@ fn of_method(content: &Content<'_>, method: Method) -> Vec<&'static str> {
     expect(rigid == all(is_modal || is_attached), "rigid-body coordinates");
     // Mass properties and gravity take the six unit motions, which are the first six of seven and more.
     let is_told = metadata.model.rigid_body_modes == RigidBodyModes::Geometric || n_r > 6 || is_nearly_unit(content);
-    expect(tensors.gravity.is_none() || is_told || content.holds_dofs(), "rigid-body modes said to be algebraic");
+    let is_of_model = content.holds_dofs() || content.is_preloaded();
+    expect(tensors.gravity.is_none() || is_told || is_of_model, "rigid-body modes said to be algebraic");
     flaws
 }
 
@@ -336,12 +337,16 @@ fn with_method(content: &Content<'_>) -> Vec<String> {
     let (metadata, tensors) = (content.superelement.metadata(), content.superelement.tensors());
     let mut modal = metadata.coordinates[content.n_b..].iter();
     let is_mixed = modal.any(|coordinate| !matches!(coordinate, Coordinate::FixedInterfaceMode { .. }));
-    let is_classical = tensors.gravity.is_some() && !content.holds_dofs();
+    let is_free = tensors.gravity.is_some() && !content.holds_dofs();
     let is_geometric = metadata.model.rigid_body_modes == RigidBodyModes::Geometric;
     let found = [
         (tensors.mixing.is_some() != is_mixed, "mixing"),
         (
-            metadata.model.mass_properties.is_some() != (is_classical && is_of_a_body(content.m_f.as_ref())),
+            match (content.is_preloaded(), metadata.model.mass_properties.is_some()) {
+                // What tells a preloaded body from several is the mass of the model.
+                (true, has_properties) => has_properties && !is_free,
+                (false, has_properties) => has_properties != (is_free && is_of_a_body(content.m_f.as_ref())),
+            },
             "gravity without mass properties, or these without it",
         ),
         (tensors.gravity.is_none() && is_geometric && content.has_mass(), "no gravity"),

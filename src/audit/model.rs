@@ -24,6 +24,7 @@ mod full;
 mod identity;
 mod interior;
 mod motions;
+mod nearby;
 mod projection;
 mod scaled;
 mod solve_errors;
@@ -33,11 +34,12 @@ use supel_runtime::Superelement;
 
 use super::Audit;
 use super::content::{ModelNoise, mass_rank};
+use super::mass;
 use super::spectrum::condition_of;
 use crate::dense;
 use crate::eigen::Factored;
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, Cholesky};
+use crate::factor::Analysis;
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job, MassOf};
 use crate::partition::Partition;
@@ -57,6 +59,7 @@ use comparison::Comparison;
 use full::Full;
 use interior::Interior;
 use motions::{KnownMotions, Sight};
+use nearby::Nearby;
 use projection::{Massive, Projected};
 use scaled::Scaled;
 
@@ -199,9 +202,11 @@ impl<'a> Reference<'a> {
 
     /// What the mass before supports says of a component whose file has no mass properties: that it is a body's, and what the job expects.
     fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
-        let mut checks: Vec<Check> = verification::of_held_body(self.partition).into_iter().collect();
+        let mut checks: Vec<Check> = verification::of_weighed_body(self.partition).into_iter().collect();
         let has_properties = superelement.metadata().model.mass_properties.is_some();
-        if let Some(expect) = self.plan.job().model.expect.as_ref().filter(|_| !has_properties) {
+        checks.extend(mass::stated_of_model(superelement, self.partition));
+        let is_expected_here = !has_properties || self.partition.fit.is_preloaded();
+        if let Some(expect) = self.plan.job().model.expect.as_ref().filter(|_| is_expected_here) {
             let lacks = verification::not_comparable(expect, self.partition);
             checks.extend(verification::expected_by_weight(expect, self.partition));
             checks.extend(verification::comparable(&lacks));
@@ -283,8 +288,8 @@ impl Free {
         let boundary = if is_modal { Boundary::FreeInterface } else { of_method };
         let asked = match boundary {
             Boundary::FreeInterface => {
-                let rigid = deflated(given, &full.zero);
-                Some(AskedModes::moving(&full, (boundary, &full.factor), rigid, &job.reduction)?)
+                let (rigid, operator) = (deflated(given, &full.zero), Factored::new(&full.factor, full.sigma));
+                Some(AskedModes::moving(&full, (boundary, &operator), rigid, &job.reduction)?)
             }
             Boundary::FixedInterface | Boundary::MixedInterface => None,
         };
@@ -312,9 +317,10 @@ fn mixed(full: &Full<'_>, rigid: &RigidBodyModes, job: &Job) -> Result<AskedMode
     let pencil = partition.pencil_under(boundary);
     let analysis = Analysis::new(pencil)?;
     let name = |row: usize| partition.name_of(partition.dof_under(boundary, row));
-    let factor = Cholesky::new(&analysis, pencil, full.sigma, &name)?;
-    let asked = AskedModes::moving(full, (boundary, &factor), &rigid, &job.reduction)?;
-    drop(factor);
+    let nearby = Nearby::new(partition, (&analysis, pencil), full.sigma, &name)?;
+    let operator = Factored::new(&nearby.factor, nearby.sigma);
+    let asked = AskedModes::moving(full, (boundary, &operator), &rigid, &job.reduction)?;
+    drop(nearby);
     asked.counted(partition, &analysis, full.first)
 }
 

@@ -1,7 +1,7 @@
 //! What could not be judged, and which fields no comparison confirms.
 
 use serde::Serialize;
-use supel_runtime::{MatrixKind, Method, RigidBodyModes, Superelement};
+use supel_runtime::{Flag, MatrixKind, Method, RigidBodyModes, Superelement};
 
 use super::content::Content;
 
@@ -120,7 +120,12 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "model.rigid_body_modes" => metadata.interface_nodes.is_empty(),
         "mixing" => tensors.mixing.is_some(),
         "model.mass_properties" => is_algebraic && metadata.model.mass_properties.is_some(),
-        "gravity" => is_algebraic && tensors.gravity.is_some(),
+        // Of a preloaded component it is the inertia of translations, which the interface tells.
+        "gravity" => {
+            let is_told =
+                metadata.flags.contains(&Flag::Preloaded) && superelement.n_interface() >= superelement.n_rigid();
+            is_algebraic && tensors.gravity.is_some() && !(is_told && superelement.n_rigid() > 0)
+        }
         "load_vectors" => tensors.load_vectors.is_some(),
         "rigid_body_mass" => superelement.n_rigid() == 0,
         "quantities" => tensors.quantities.is_some(),

@@ -1,6 +1,7 @@
 //! All modes of a band: those that a result has, and those that counts find missing and the own eigensolver finds.
 
 use super::claims::Claims;
+use super::independence::RIGID;
 use super::measured::Measured;
 use crate::eigen::{ElasticCount, Interval, Modes};
 use crate::error::{Error, Result};
@@ -22,6 +23,10 @@ pub struct Band {
 const BEYOND: f64 = 1.0 / 256.0;
 /// Steps by which a shift that lies on an eigenvalue is moved up, relative to it.
 const STEPS: [f64; 4] = [0.0, 1e-4, 1e-3, 1e-2];
+/// Steps in λ by which a shift leaves the cluster of zeros that rigid-body modes are: a quarter of a frequency each.
+const JUMP: f64 = 16.0;
+/// Such steps: from the smallest rounding of a zero to the first elastic mode.
+const MOST_JUMPS: usize = 12;
 /// Modes of an interval in which one is missing: a search among fewer finds what it looks for.
 const NARROW: usize = 24;
 /// Counts that cut one interval after another down to that.
@@ -43,9 +48,24 @@ pub(super) struct Completed {
     pub(super) is_asked: bool,
     /// Modes that a count finds missing and that were not looked for, as they are too many.
     pub(super) n_not_sought: usize,
+    /// λ of the first elastic mode, where the band begins at zero.
+    pub(super) first_elastic: Option<f64>,
 }
 
 impl Completed {
+    /// With the first elastic mode, which a result that has rigid-body modes alone does not tell: `lowest` finds it.
+    ///
+    /// # Errors
+    /// Those of `lowest`.
+    pub(super) fn with_first_elastic(self, lowest: impl FnOnce() -> Result<Option<f64>>) -> Result<Self> {
+        let first_elastic = match self.modes.lambda.first() {
+            _ if self.ends[0] > 0.0 => None,
+            Some(first) => Some(*first),
+            None => lowest()?,
+        };
+        Ok(Self { first_elastic, ..self })
+    }
+
     /// The same modes in a band that ends with the highest mode that a pair is, where no end was asked for: what a result states above it
     /// is no reason to look for modes there.
     pub(super) fn ending_with(self, highest: Option<f64>) -> Self {
@@ -86,7 +106,7 @@ pub(super) fn completed(
     let ends = [asked.map_or(0.0, |[from, _]| from), top];
     let incomplete = |modes: Modes, n_not_sought: usize| {
         let is_asked = asked.is_some();
-        Completed { modes, certificate: None, ends, known_to: 0.0, is_asked, n_not_sought }
+        Completed { modes, certificate: None, ends, known_to: 0.0, is_asked, n_not_sought, first_elastic: None }
     };
     let Some(end) = end else { return Ok(incomplete(known, 0)) };
     let lowest = begin.map_or(f64::NEG_INFINITY, |begin| begin.inertia.sigma);
@@ -101,7 +121,8 @@ pub(super) fn completed(
     let given = Modes { counts, searched_to: Some(known_to), ..inside };
     let source = OfResult { search, modes: &given, begin };
     let (modes, certificate) = certified(&source, problem, given.clone(), Some(end), Certify::Count)?;
-    Ok(Completed { modes, certificate, ends, known_to, is_asked: asked.is_some(), n_not_sought: n_beyond })
+    let is_asked = asked.is_some();
+    Ok(Completed { modes, certificate, ends, known_to, is_asked, n_not_sought: n_beyond, first_elastic: None })
 }
 
 /// The modes of a result as a source that has no others: what is missing the own search finds.
@@ -138,11 +159,29 @@ fn count_near(problem: &BoundaryProblem<'_>, sigma: f64) -> Result<ElasticCount>
     let mut last = Error::SturmPivot;
     for step in STEPS {
         match problem.count_below(sigma * (1.0 + step)) {
-            Err(Error::SturmPivot) => last = Error::SturmPivot,
+            Err(error @ (Error::SturmPivot | Error::ModesMissing { .. })) => last = error,
             found => return found,
         }
     }
-    Err(last)
+    above_the_zeros(problem, sigma)?.ok_or(last)
+}
+
+/// The count of no elastic mode at a shift above the cluster of zeros, where the given one lies among them: as none is below the higher
+/// shift, none is below this one. A component that is held has no such cluster.
+fn above_the_zeros(problem: &BoundaryProblem<'_>, sigma: f64) -> Result<Option<ElasticCount>> {
+    if problem.n_rigid() == 0 {
+        return Ok(None);
+    }
+    let mut higher = sigma;
+    for _ in 0..MOST_JUMPS {
+        higher *= JUMP;
+        match problem.count_below(higher) {
+            Ok(count) => return Ok(Some(count).filter(|count| count.n_elastic == 0)),
+            Err(Error::SturmPivot | Error::ModesMissing { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(None)
 }
 
 fn end_of(problem: &BoundaryProblem<'_>, top: f64) -> Result<Option<ElasticCount>> {
@@ -157,10 +196,11 @@ fn default_end(
     (claims, measured): (&Claims, &Measured),
 ) -> Result<(f64, Option<ElasticCount>)> {
     let of_known = known.lambda.last().copied().unwrap_or(0.0);
-    // A shape that is no mode has a quotient somewhere; what is stated of it counts.
-    let stated = claims.lambda.as_ref().unwrap_or(&measured.lambda).iter().copied();
-    let stated = stated.zip(&claims.has_mass).filter(|(lambda, has_mass)| **has_mass && lambda.is_finite());
-    let of_all = stated.map(|(lambda, _)| lambda).fold(of_known, f64::max);
+    // A shape that is no mode has a quotient somewhere; what is stated of it counts. Of rigid-body motion it is the rounding of a zero.
+    let stated = claims.lambda.as_ref().unwrap_or(&measured.lambda).iter().copied().enumerate();
+    let is_elastic = |claim: usize| claims.has_mass[claim] && measured.rigid_share(claim) <= RIGID;
+    let stated = stated.filter(|(claim, lambda)| is_elastic(*claim) && lambda.is_finite());
+    let of_all = stated.map(|(_, lambda)| lambda).fold(of_known, f64::max);
     if of_all > of_known * (1.0 + BEYOND) {
         let end = end_of(problem, of_all)?;
         let n_lacking = end.map_or(0, |end| end.n_elastic.saturating_sub(known.count()));

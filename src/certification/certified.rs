@@ -9,8 +9,9 @@ use super::measured::Measured;
 use super::pair::{JudgedPair, MissingMode, PairKind};
 use super::unit;
 use crate::error::Result;
-use crate::job::ReductionJob;
-use crate::modes::{Certificate, Component, Search};
+use crate::job::{ModeSelection, ModesJob, ReductionJob};
+use crate::modes::{Certificate, Component, ModeSource, Search};
+use crate::random::SEED;
 use crate::verification::check::{Check, Verdict};
 
 /// What was found of eigenpairs that another program computed.
@@ -79,6 +80,7 @@ pub fn certified_pairs(
     })?;
     let standing = independent.standing;
     let completed = completed((&search, partition), independent.modes, (claims, &measured), band)?;
+    let completed = completed.with_first_elastic(|| first_elastic(component, job))?;
     let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);
     let completed = completed.ending_with(judged.highest);
     let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);
@@ -94,6 +96,17 @@ pub fn certified_pairs(
         pairs: judged.pairs,
         missing: judged.missing,
     })
+}
+
+/// λ of the first elastic mode of a free component, which tells what is no frequency; none of one that is held.
+fn first_elastic(component: Component<'_>, job: &ReductionJob) -> Result<Option<f64>> {
+    if component.rigid.count() == 0 || component.rigid.count() >= component.partition.n_dofs() {
+        return Ok(None);
+    }
+    let modes = Some(ModesJob::Computed(ModeSelection::Count { count: 1 }));
+    let search = Search::new(component, &ReductionJob { modes, ..job.clone() })?;
+    let found = component.factor.vouched(search.lowest(SEED))?;
+    Ok(found.lambda.first().copied())
 }
 
 /// The count at the end of the band, without what lies above it.

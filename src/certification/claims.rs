@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use faer::Mat;
 
+use super::carrier::{Carried, Carrier};
+use super::strayed::Strayed;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::{ForeignModes, ModeValues, ValueSource, ValueUnit};
-use crate::partition::{DofOrigin, Partition, TransformationRow};
+use crate::partition::Partition;
 use crate::sparse::{absolute_energy, product};
 
 /// Where the eigenpairs of another program are.
@@ -30,12 +32,12 @@ pub struct Claims {
     pub(super) has_mass: Vec<bool>,
     /// λ in scaled units, where the result has frequencies.
     pub(super) lambda: Option<Vec<f64>>,
-    /// How far dofs that are held, or follow others, move away from that: relative to the largest displacement of each shape.
-    pub(super) not_followed: f64,
-    /// What the numbers of the shapes may be off by, relative to each.
-    pub(super) shape_rounding: f64,
-    /// Likewise of the frequencies.
-    pub(super) value_rounding: f64,
+    /// How far rows that are held, or follow others, are from where they have to be in each shape.
+    pub(super) strayed: Vec<Strayed>,
+    /// What the numbers of each shape may be off by, relative to them.
+    pub(super) shape_rounding: Vec<f64>,
+    /// What each stated frequency may be off by, relative to it; zero where the result has none.
+    pub(super) value_rounding: Vec<f64>,
     /// What the numbers of the frequencies are.
     pub(super) unit: Option<ValueUnit>,
     /// The numbers as they are.
@@ -52,15 +54,16 @@ impl Claims {
     /// [`Error::ModesNothing`] for a shape of zeros, or one that moves nothing but held dofs.
     pub fn of(partition: &Partition, modes: &ForeignModes, values: Option<&ModeValues>) -> Result<Self> {
         let (n, k) = (partition.n_dofs(), modes.columns.len());
-        let (mut shapes, mut units, mut not_followed) = (Mat::zeros(n, k), Vec::with_capacity(k), 0.0f64);
+        let (mut shapes, mut carried) = (Mat::zeros(n, k), Vec::with_capacity(k));
+        let carrier = Carrier::of(partition);
         for (at, column) in modes.columns.iter().enumerate() {
-            let (unit, left) = carried(partition, column, dense::column_mut(shapes.as_mut(), at))
+            let found = carrier
+                .carry(column, modes.rounding, dense::column_mut(shapes.as_mut(), at))
                 .ok_or(Error::ModesNothing { mode: at + 1, found: "zero everywhere" })?;
             if dense::column(shapes.as_ref(), at).iter().all(|value| *value == 0.0) {
                 return Err(Error::ModesNothing { mode: at + 1, found: "nothing but held dofs that it moves" });
             }
-            units.push(unit);
-            not_followed = not_followed.max(left);
+            carried.push(found);
         }
         let momenta = product(&partition.mass, shapes.as_ref());
         let terms = absolute_energy(&partition.mass, shapes.as_ref());
@@ -72,51 +75,41 @@ impl Claims {
             dense::column_mut(shapes.as_mut(), at).iter_mut().for_each(|value| *value /= length);
         }
         let unit_of_mass = partition.scaling.mass_unit();
-        let of_file = |(mass, unit): (&f64, &f64)| mass * unit * unit * unit_of_mass;
+        let of_file = |(mass, shape): (&f64, &Carried)| mass * shape.unit * shape.unit * unit_of_mass;
         let to_scaled =
             |values: &ModeValues, number: &f64| values.unit.eigenvalue(*number) / partition.scaling.eigenvalue_unit();
         Ok(Self {
             shapes,
-            modal_masses: masses.iter().zip(&units).map(of_file).collect(),
+            modal_masses: masses.iter().zip(&carried).map(of_file).collect(),
             has_mass,
             lambda: values.map(|values| values.numbers.iter().map(|number| to_scaled(values, number)).collect()),
-            not_followed,
-            shape_rounding: modes.rounding,
-            value_rounding: values.map_or(0.0, |values| values.rounding),
+            strayed: carried.iter().map(|shape| shape.strayed).collect(),
+            shape_rounding: carried.iter().map(|shape| shape.rounding).collect(),
+            value_rounding: values
+                .map_or_else(|| vec![0.0; k], |values| (0..k).map(|at| values.rounding_of(at)).collect()),
             unit: values.map(|values| values.unit),
             numbers: values.map_or_else(Vec::new, |values| values.numbers.clone()),
         })
+    }
+
+    /// Some of the pairs, by their numbers from zero.
+    pub(super) fn only(&self, pairs: &[usize]) -> Self {
+        let of = |values: &[f64]| pairs.iter().filter_map(|at| values.get(*at).copied()).collect::<Vec<f64>>();
+        Self {
+            shapes: dense::columns(self.shapes.as_ref(), pairs),
+            modal_masses: of(&self.modal_masses),
+            has_mass: pairs.iter().map(|at| self.has_mass[*at]).collect(),
+            lambda: self.lambda.as_deref().map(of),
+            strayed: pairs.iter().map(|at| self.strayed[*at]).collect(),
+            shape_rounding: of(&self.shape_rounding),
+            value_rounding: of(&self.value_rounding),
+            unit: self.unit,
+            numbers: of(&self.numbers),
+        }
     }
 
     /// k.
     pub fn count(&self) -> usize {
         self.modal_masses.len()
     }
-}
-
-/// Puts a shape on the dofs, in a unit that brings its largest entry into [1, 2): the unit, and how far rows without a dof of their own
-/// move away from what the dofs make of them. None for a shape of zeros.
-pub(super) fn carried(partition: &Partition, column: &[f64], dofs: &mut [f64]) -> Option<(f64, f64)> {
-    let rows = &partition.model.rows;
-    let n_rows = partition.transformation.rows.len();
-    let value = |row: usize| column[rows.of(row)];
-    let largest = (0..n_rows).fold(0.0f64, |max, row| max.max(value(row).abs()));
-    if largest == 0.0 {
-        return None;
-    }
-    let unit = largest.log2().floor().clamp(-1022.0, 1023.0).exp2();
-    for (to, dof) in dofs.iter_mut().zip(&partition.dofs) {
-        if let DofOrigin::Row(row) = dof.origin {
-            *to = value(row) / unit;
-        }
-    }
-    let left = |(row, of_row): (usize, &TransformationRow)| match of_row {
-        TransformationRow::Dof(_) => 0.0,
-        other => {
-            let moved: f64 = other.entries().map(|(dof, factor)| factor * dofs[dof as usize]).sum();
-            (value(row) / unit - moved).abs()
-        }
-    };
-    let worst = partition.transformation.rows.iter().enumerate().map(left).fold(0.0, f64::max);
-    Some((unit, worst / (largest / unit)))
 }

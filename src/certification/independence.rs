@@ -17,7 +17,9 @@ use crate::sparse::product;
 /// and to the square of that where the next mode is far.
 pub(super) const RECOGNISED: f64 = 2e-2;
 /// Share of the modal mass from which on a shape is rigid-body motion.
-const RIGID: f64 = 0.5;
+pub(super) const RIGID: f64 = 0.5;
+/// What a shape has besides rigid-body motion, from which on it is no combination of such motions: a hundredth of its modal mass.
+const MOSTLY_ELASTIC: f64 = 0.1;
 /// What is left of a shape that is a mode of its own, whatever its neighbours: half of its modal mass.
 const OF_ITS_OWN: f64 = 0.7;
 /// What is left of a shape of which nothing is left: G squares it, so that it is rounding.
@@ -105,7 +107,7 @@ fn stand_among(standing: &mut [Standing], rigid: &[usize], along: MatRef<'_, f64
         if left > NOTHING.max(10.0 * elastic.min(0.1)) * gram[(*j, *j)].sqrt() {
             standing[*j] = Standing::Rigid;
             factor.push(*j, row, left);
-        } else {
+        } else if elastic <= MOSTLY_ELASTIC {
             standing[*j] = factor.nearest(&gram, *j).map_or(Standing::None, Standing::DependsOn);
         }
     }

@@ -25,6 +25,8 @@ const CLUSTER: f64 = 1e-5;
 const MOSTLY: f64 = 0.5;
 /// Relative difference of a frequency beyond which it is not that of its mode: reduced models are accepted with less.
 pub(super) const INEXACT: f64 = 1e-3;
+/// Relative difference of a frequency, and energy of rigid-body motion relative to the first elastic one, that no digits excuse.
+pub(super) const MOST_OF_DIGITS: f64 = 1e-2;
 /// λ of rigid-body motion relative to the first elastic one: a hundredth of its frequency.
 pub(super) const NOT_RIGID: f64 = 1e-4;
 
@@ -42,8 +44,8 @@ pub(super) struct Judged {
     pub(super) highest: Option<f64>,
     /// δ/γ of each pair that is a mode: the sine of the angle between its shape and the modes of its cluster.
     pub(super) angles: Vec<Option<f64>>,
-    /// The relative error bar of each quotient, of λ.
-    pub(super) bars: Vec<f64>,
+    /// How far each quotient may be from an eigenvalue of K and M by the force that is left over, relative to it.
+    pub(super) residual_bars: Vec<f64>,
 }
 
 /// Judges every pair.
@@ -64,21 +66,26 @@ pub(super) fn judged_pairs(
         for claim in 0..claims.count() {
             if (standing[claim] == Standing::Kept) == is_kept {
                 let told = claims.lambda.as_ref().map_or(measured.lambda[claim], |stated| stated[claim]);
-                kinds[claim] = truth.found(claim, standing[claim], (&shares, told), &mut taken);
+                // A band that nobody asked for ends where the result does: all that it has is judged, but for motions without mass,
+                // which are modes of infinite frequency.
+                let may_be_above = completed.is_asked || !claims.has_mass[claim];
+                let above = Some(told).filter(|_| may_be_above);
+                kinds[claim] = truth.found(claim, standing[claim], (&shares, above), &mut taken);
             }
         }
     }
     let n_rigid = kinds.iter().filter(|found| found.kind == PairKind::RigidBody).count();
     let has_rigid = completed.ends[0] <= 0.0;
     let n_rigid_missing = if has_rigid { problem.n_rigid().saturating_sub(n_rigid) } else { 0 };
-    let bars: Vec<f64> = (0..claims.count()).map(|claim| truth.bar(claim, kinds[claim].cluster, measured)).collect();
+    let residual_bars: Vec<f64> =
+        (0..claims.count()).map(|claim| truth.residual_bar(claim, kinds[claim].cluster, measured)).collect();
     let context = Context { problem, claims, measured, truth: &truth };
-    let pairs = (0..claims.count()).map(|claim| context.pair(claim, &kinds[claim], bars[claim])).collect();
+    let pairs = (0..claims.count()).map(|claim| context.pair(claim, &kinds[claim], residual_bars[claim])).collect();
     let angles = (0..claims.count()).map(|claim| truth.angle(claim, kinds[claim].cluster, measured)).collect();
     let (missing, n_cut) = context.missing(&taken);
     let mut is_taken = truth.clusters.iter().zip(&taken).filter(|(_, taken)| !taken.is_empty());
     let highest = is_taken.next_back().map(|(cluster, _)| truth.lambda[cluster.end - 1]);
-    Judged { pairs, missing, n_above: truth.n_above(), n_cut, n_rigid_missing, highest, angles, bars }
+    Judged { pairs, missing, n_above: truth.n_above(), n_cut, n_rigid_missing, highest, angles, residual_bars }
 }
 
 /// What a pair was found to be.
@@ -131,7 +138,7 @@ impl Truth<'_> {
         &self,
         claim: usize,
         standing: Standing,
-        (shares, told): (&Mat<f64>, f64),
+        (shares, above): (&Mat<f64>, Option<f64>),
         taken: &mut [Vec<usize>],
     ) -> Found {
         let share_of =
@@ -157,7 +164,7 @@ impl Truth<'_> {
             (Standing::Kept, None) => Found { kind: PairKind::Mode, cluster: None, repeats: None },
             (Standing::None, None) => {
                 // What is told to lie above the modes that are known may be any.
-                let is_above = told > self.completed.known_to * (1.0 + CLUSTER);
+                let is_above = above.is_some_and(|told| told > self.completed.known_to * (1.0 + CLUSTER));
                 let kind = if is_above { PairKind::OutsideBand } else { PairKind::Invented };
                 Found { kind, cluster: None, repeats: None }
             }
@@ -173,8 +180,8 @@ impl Truth<'_> {
         below.into_iter().chain(above).fold(1.0, f64::min)
     }
 
-    /// The relative error bar of ρ: δ, or δ²/γ where its mode is known, and what rounding and digits leave.
-    fn bar(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> f64 {
+    /// How far ρ may be from an eigenvalue by its residual, relative to it: δ, or δ²/γ where its mode is known.
+    fn residual_bar(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> f64 {
         let (lambda, lacking) = (measured.lambda[claim], measured.lacking[claim]);
         // Of λ − σ and not of λ.
         let of_distance = |share: f64| share * ((lambda - self.sigma) / lambda).abs();
@@ -183,7 +190,7 @@ impl Truth<'_> {
             Some(cluster) if lacking < self.gap(cluster) => of_any.min(lacking * lacking / self.gap(cluster)),
             _ => of_any,
         };
-        of_distance(of_residual) + measured.errors[claim].data_bar
+        of_distance(of_residual)
     }
 
     fn angle(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> Option<f64> {
@@ -204,31 +211,39 @@ impl Context<'_> {
         self.problem.component.partition.scaling.hertz(lambda)
     }
 
-    fn pair(&self, claim: usize, found: &Found, bar: f64) -> JudgedPair {
+    fn pair(&self, claim: usize, found: &Found, residual_bar: f64) -> JudgedPair {
         let Self { problem, claims, measured, truth } = self;
         let lambda = measured.lambda[claim];
         let stated = claims.lambda.as_ref().map(|stated| stated[claim]);
         let shape_hz = self.hertz(lambda);
-        let of_cluster = found.cluster.map(|cluster| nearest(&truth.lambda[truth.clusters[cluster].clone()], lambda));
+        let of_cluster = found.cluster.map(|cluster| nearest(truth.lambda, truth.clusters[cluster].clone(), lambda));
+        let own_bar = 0.5 * (residual_bar + measured.errors[claim].data_bar) * shape_hz.abs();
+        let bar_of =
+            |mode: usize| 0.5 * truth.completed.modes.errors[mode].relative_bar * self.hertz(truth.lambda[mode]);
         // Of a shape that is an eigenvector its own quotient is known best.
-        let mode = match found.kind {
-            PairKind::Mode => Some(lambda),
-            PairKind::Inexact => of_cluster,
-            PairKind::RigidBody => Some(0.0),
-            PairKind::Repeated | PairKind::Invented | PairKind::OutsideBand => None,
+        let (mode, mode_bar) = match found.kind {
+            PairKind::Mode => (Some(lambda), Some(own_bar)),
+            PairKind::Inexact => (of_cluster.map(|mode| truth.lambda[mode]), of_cluster.map(bar_of)),
+            PairKind::RigidBody => (Some(0.0), None),
+            PairKind::Repeated | PairKind::Invented | PairKind::OutsideBand => (None, None),
         };
         let stated_or_own = stated.unwrap_or(lambda);
         let is_off = match (found.kind, mode) {
             (PairKind::Mode, Some(mode)) => {
                 let off = (stated_or_own.max(0.0) / mode).sqrt() - 1.0;
-                !(off.abs() <= INEXACT + claims.value_rounding && 0.5 * bar <= INEXACT)
+                let of_digits = claims.value_rounding[claim] + of_digits_in_frequency(measured, claim);
+                !(off.abs() <= INEXACT + of_digits && 0.5 * residual_bar <= INEXACT)
             }
             (PairKind::RigidBody, _) => {
-                truth.lambda.first().is_some_and(|first| stated_or_own.abs() > NOT_RIGID * first)
+                let of_digits = |first: f64| of_digits_in_energy(measured, claim, first).min(MOST_OF_DIGITS);
+                let is_off = |first: f64| stated_or_own.abs() > NOT_RIGID.max(of_digits(first)) * first;
+                truth.completed.first_elastic.is_some_and(is_off)
             }
             _ => false,
         };
-        let kind = if is_off { PairKind::Inexact } else { found.kind };
+        let is_told = matches!(found.kind, PairKind::Mode | PairKind::RigidBody | PairKind::Inexact);
+        let out_of_place = Some(claims.strayed[claim]).filter(|strayed| is_told && strayed.fails());
+        let kind = if is_off || out_of_place.is_some() { PairKind::Inexact } else { found.kind };
         let is_outside =
             truth.completed.is_asked && kind != PairKind::Repeated && !truth.holds(mode.unwrap_or(stated_or_own));
         let kind = if is_outside { PairKind::OutsideBand } else { kind };
@@ -238,10 +253,12 @@ impl Context<'_> {
             kind,
             stated_hz: stated.map(|stated| self.hertz(stated)),
             shape_hz,
-            error_bar_hz: 0.5 * bar * shape_hz.abs(),
+            error_bar_hz: own_bar,
             mode_hz: mode.map(|mode| self.hertz(mode)),
+            mode_error_bar_hz: mode_bar,
             backward_error: measured.backward[claim],
             worst_at: problem.component.partition.name_of(at),
+            out_of_place: out_of_place.map(|strayed| strayed.value),
             repeats: found.repeats.map(|other| other + 1),
             neighbours_hz: if kind == PairKind::Invented { self.neighbours(stated_or_own) } else { [None, None] },
         }
@@ -280,7 +297,21 @@ impl Context<'_> {
     }
 }
 
-fn nearest(lambda: &[f64], to: f64) -> f64 {
-    let distance = |other: &f64| (other - to).abs();
-    lambda.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(to)
+/// What the digits of K and M leave open of the frequency of a shape, relative to it, up to what no digits excuse.
+pub(super) fn of_digits_in_frequency(measured: &Measured, claim: usize) -> f64 {
+    let bar = 0.5 * measured.errors[claim].data_bar;
+    if bar.is_nan() { 0.0 } else { bar.min(MOST_OF_DIGITS) }
+}
+
+/// What they leave open of the energy of a shape, relative to the first elastic mode.
+pub(super) fn of_digits_in_energy(measured: &Measured, claim: usize, first: f64) -> f64 {
+    let bar = measured.errors[claim].data_bar * (measured.lambda[claim] / first).abs();
+    if bar.is_nan() { 0.0 } else { bar }
+}
+
+/// The mode of a cluster whose eigenvalue is nearest.
+fn nearest(lambda: &[f64], cluster: Range<usize>, to: f64) -> usize {
+    let distance = |mode: &usize| (lambda[*mode] - to).abs();
+    let first = cluster.start;
+    cluster.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(first)
 }

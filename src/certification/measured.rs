@@ -5,7 +5,7 @@ use faer::{Mat, MatRef};
 use super::claims::Claims;
 use crate::dense;
 use crate::eigen::{Equilibrated, ModalProblem, ModeError, ShiftInvert, rayleigh_quotients};
-use crate::sparse::{panels, product};
+use crate::sparse::panels;
 
 /// What is measured of the pairs of a result.
 pub(super) struct Measured {
@@ -15,7 +15,7 @@ pub(super) struct Measured {
     pub(super) errors: Vec<ModeError>,
     /// δ.
     pub(super) lacking: Vec<f64>,
-    /// Normwise backward error of each pair (M-01), with the frequency of the result where it has one.
+    /// Normwise backward error of each shape with its own quotient (M-01).
     pub(super) backward: Vec<f64>,
     /// The dof where that residual is largest.
     pub(super) worst: Vec<usize>,
@@ -40,16 +40,11 @@ impl Measured {
         };
         for panel in panels(claims.count()) {
             let shapes = claims.shapes.as_ref().get(.., panel.clone());
-            let (lambda, errors, mut residual) = rayleigh_quotients(problem, shapes);
+            let (lambda, errors, residual) = rayleigh_quotients(problem, shapes);
             found.lacking.extend(lacking(operator, &lambda, residual.as_ref()));
-            let momenta = product(problem.mass, shapes);
-            for (at, claim) in panel.enumerate() {
-                let stated = claims.lambda.as_ref().map_or(lambda[at], |stated| stated[claim]);
-                let column = dense::column_mut(residual.as_mut(), at);
-                dense::add_scaled(column, lambda[at] - stated, dense::column(momenta.as_ref(), at));
-                found.backward.push(norms.backward_error(stated, dense::column(shapes, at), column));
-                found.worst.push(norms.largest(column));
-            }
+            found.backward.extend(errors.iter().map(|error| error.backward));
+            let worst = (0..panel.len()).map(|at| norms.largest(dense::column(residual.as_ref(), at)));
+            found.worst.extend(worst);
             found.lambda.extend(lambda);
             found.errors.extend(errors);
         }

@@ -12,23 +12,27 @@
 //! finds them there. What of the result is no mode is compared with all that are.
 
 mod band;
+mod carrier;
 mod certified;
 mod checks;
 mod claims;
 mod independence;
 mod judgement;
 mod measured;
+mod orientation;
 mod pair;
 mod result_files;
+mod strayed;
 mod superelement;
 mod unit;
 
 pub use band::Band;
 pub use certified::{BandCount, Certification, certified_pairs};
 pub use claims::{Claims, PairFiles};
+pub use orientation::right_way_round;
 pub use pair::{JudgedPair, MissingMode, PairKind};
 pub use result_files::ResultFiles;
 pub use superelement::{
-    Foreign, ForeignSuperelement, FreeComparison, Interface, ReducedCertification, ReducedFiles, ReducedMatrix,
-    compared_free, interface, preserved,
+    Foreign, ForeignSuperelement, FreeComparison, Interface, LeftOut, Own, ReducedCertification, ReducedFiles,
+    ReducedMatrix, compared_free, interface, left_out, preserved,
 };

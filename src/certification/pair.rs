@@ -33,10 +33,15 @@ pub struct JudgedPair {
     pub error_bar_hz: f64,
     /// The frequency of the mode that it is, in Hz; none where it is none.
     pub mode_hz: Option<f64>,
-    /// Normwise backward error of the pair.
+    /// The error bar of that, in Hz; none of rigid-body motion.
+    pub mode_error_bar_hz: Option<f64>,
+    /// Normwise backward error of its shape, with the frequency that belongs to that.
     pub backward_error: f64,
     /// Node and direction where its residual is largest.
     pub worst_at: String,
+    /// How far it moves rows that are held, or that follow others, where that is too far.
+    #[serde(skip)]
+    pub out_of_place: Option<f64>,
     /// The number of the pair that it repeats.
     pub repeats: Option<usize>,
     /// The nearest frequencies of the model below and above it, of a pair that is no mode.

@@ -6,12 +6,12 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
 use supel_runtime::Superelement;
 
 use crate::audit::flaw;
 use crate::linked;
 use crate::regular_file;
+use crate::report::RecordedReport;
 use crate::verification::check::Check;
 
 /// More than the report of any run takes.
@@ -21,7 +21,7 @@ const MAX_BYTES: u64 = 1 << 28;
 pub(super) fn check(file: &Path, superelement: &Superelement, digest: &str) -> Option<Check> {
     let (path, report) = reports(file, superelement).find_map(|path| read(&path).map(|report| (path, report)))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let difference = match report["run"]["file_digest"].as_str() {
+    let difference = match report.file_digest() {
         Some(recorded) if recorded == digest => None,
         Some(recorded) => Some(format!("{name} is of a file with BLAKE3 {recorded}")),
         None => Some(format!("{name} is of a run that wrote no superelement")),
@@ -44,9 +44,13 @@ fn reports(file: &Path, superelement: &Superelement) -> impl Iterator<Item = Pat
 }
 
 /// The document, if it is a report.
-fn read(path: &Path) -> Option<Value> {
+pub(super) fn read(path: &Path) -> Option<RecordedReport> {
+    RecordedReport::parse(&bytes(path)?)
+}
+
+/// What a file that was written with a superelement holds; none where it cannot be read.
+pub(super) fn bytes(path: &Path) -> Option<Vec<u8>> {
     let mut bytes = Vec::new();
     regular_file::open(path).ok()?.take(MAX_BYTES).read_to_end(&mut bytes).ok()?;
-    let report: Value = serde_json::from_slice(&bytes).ok()?;
-    report["body"]["format_version"].is_number().then_some(report)
+    Some(bytes)
 }

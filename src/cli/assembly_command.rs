@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::flags::AssemblyFlags;
+use super::superelement_flags::AssemblyFlags;
 use crate::assembly::PointMass;
 use crate::error::{Error, Result};
 
@@ -46,7 +46,8 @@ fn component(text: &str) -> (String, PathBuf) {
     }
 }
 
-fn joined(text: &str) -> Result<(String, String)> {
+/// Two interfaces of one text.
+pub(super) fn joined(text: &str) -> Result<(String, String)> {
     let expected = "two interfaces, as in a.hub=b.pin";
     match text.split_once('=') {
         Some((a, b)) if !a.is_empty() && !b.is_empty() => Ok((a.to_owned(), b.to_owned())),

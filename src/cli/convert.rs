@@ -12,7 +12,7 @@ use super::{memory, process};
 use crate::conversion::{Content, Shape};
 use crate::dofs::DofMap;
 use crate::error::{Error, Result};
-use crate::input::{Allowance, ReadSingle};
+use crate::input::{Allowance, InputNote, ReadSingle};
 use crate::number::counted;
 use crate::report::{printable, value_text};
 
@@ -26,7 +26,7 @@ pub(super) fn run(command: &ConvertCommand, terminal: &mut Terminal<'_>) -> Resu
     };
     let threads = process::threads(process::useful_threads(process::available_threads()))?;
     let read = threads.install(|| command.matrix.read(&Allowance::of(memory_bytes)));
-    let read = read.map_err(|error| rehearsed.judge(error))?;
+    let mut read = read.map_err(|error| rehearsed.judge(error))?;
     let dofs = match (&command.dofs_output, &read.dofs) {
         (Some(_), None) => return Err(Error::RowsUnnamed { path: command.matrix.path() }),
         (Some(path), Some(dofs)) => Some((path, table(dofs))),
@@ -34,6 +34,8 @@ pub(super) fn run(command: &ConvertCommand, terminal: &mut Terminal<'_>) -> Resu
     };
     let matrix = &read.input.matrix;
     let shape = Shape::of(matrix);
+    let once = shape.given_once(matrix).map(|n_once| InputNote::GivenOnce { path: command.matrix.path(), n_once });
+    read.notes.extend(once);
     let name = command.name(read.name.as_deref());
     let complaints = abandoned(&own);
     let mut outputs = Outputs::new(&own);

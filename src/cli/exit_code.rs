@@ -25,6 +25,23 @@ pub enum ExitCode {
     InternalError = 70,
 }
 
+impl ExitCode {
+    /// How a process of this program ended by its exit code; one that is none of these is a defect.
+    pub(super) fn of_process(code: i32) -> Self {
+        let known = [
+            Self::Done,
+            Self::CheckFailed,
+            Self::Usage,
+            Self::InputData,
+            Self::ModelPhysics,
+            Self::NumericalLimit,
+            Self::Resources,
+            Self::Io,
+        ];
+        known.into_iter().find(|known| *known as i32 == code).unwrap_or(Self::InternalError)
+    }
+}
+
 impl From<ErrorClass> for ExitCode {
     fn from(class: ErrorClass) -> Self {
         match class {

@@ -27,6 +27,7 @@ pub(super) fn run(command: &ExportCommand, terminal: &mut Terminal<'_>) -> Resul
         Source::File(path) => of_file(command, path)?,
         Source::Assembly { assembly, kept } => of_assembly(command, assembly, kept)?,
     };
+    refuse_left_over(command, &made)?;
     let own =
         OwnFiles::of(&made.inputs, &made.files.iter().map(|(path, _)| ("--output", path.clone())).collect::<Vec<_>>())?;
     let complaints = abandoned(&own);
@@ -130,6 +131,20 @@ fn assembly_document(parts: &AssemblyCommand, assembly: &Assembly, joined: &Join
         "masses": assembly.loaded,
         "notes": joined.notes,
     })
+}
+
+/// Refuses to write beside files of another export under these names: a job of that one would take them for its own.
+fn refuse_left_over(command: &ExportCommand, made: &Made) -> Result<()> {
+    if made.files.is_empty() {
+        return Ok(());
+    }
+    let names = names(command)?;
+    let all = command.format.endings().iter().map(|ending| names.path(ending));
+    let mut left = all.filter(|path| path.exists() && !made.files.iter().any(|(own, _)| own == path));
+    match left.next() {
+        Some(path) => Err(Error::ExportLeftOver { path, n_more: left.count() }),
+        None => Ok(()),
+    }
 }
 
 /// The names of the files of an export.

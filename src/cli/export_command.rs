@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::assembly_command::AssemblyCommand;
-use super::flags::{AssemblyFlags, ExportFlags};
+use super::superelement_flags::{AssemblyFlags, ExportFlags};
 use super::unverified::Unverified;
 use crate::error::{Error, Result};
 use crate::export::Format;

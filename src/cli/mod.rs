@@ -10,9 +10,13 @@
 //! An answer that cannot be written to stdout is an error. A reader that has closed its end of the pipe is not.
 
 mod accompanying;
+mod admission;
+mod all;
+mod all_command;
 mod answer;
 mod assembled;
 mod assembly_command;
+mod assembly_file;
 mod calibration;
 mod certify;
 mod certify_command;
@@ -29,6 +33,8 @@ mod flag_values;
 mod flags;
 mod init;
 mod inspect;
+mod job_folder;
+mod job_process;
 mod judging;
 mod memory;
 mod modes;
@@ -45,6 +51,7 @@ mod recipes;
 mod recover;
 mod recover_command;
 mod reduce;
+mod reduce_command;
 mod refusal;
 mod rehearsal;
 mod selection_flags;
@@ -52,10 +59,12 @@ mod signals;
 mod subject_command;
 mod subject_flags;
 mod superelement_file;
+mod superelement_flags;
 mod text_flags;
 mod threads;
 mod unmet;
 mod unverified;
+mod up_to_date;
 mod verify;
 
 use std::ffi::OsString;
@@ -119,6 +128,7 @@ fn quoting_safely(error: clap::Error, args: &[OsString]) -> clap::Error {
 fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     match Command::build(flags)? {
         Command::Reduce(command) => reduce::run(&command, pipeline, terminal),
+        Command::ReduceAll(command) => all::run(&command, (pipeline, run::<Vec<OsString>>), terminal),
         Command::Plan(command) => plan::run(&command, pipeline, terminal),
         Command::Verify(command) => verify::run(&command, pipeline, terminal),
         Command::Inspect(command) => inspect::run(&command, terminal),

@@ -1,7 +1,7 @@
 //! What was typed after `supel modes`, checked.
 
 use super::assembly_command::{AssemblyCommand, in_range};
-use super::flags::ModesFlags;
+use super::superelement_flags::ModesFlags;
 use crate::assembly::Wanted;
 use crate::error::Result;
 

@@ -2,6 +2,8 @@
 
 use std::num::NonZeroUsize;
 
+use std::io::Read;
+
 use crate::error::{Error, Result};
 
 /// Largest resident memory so far, in bytes, where the system tells.
@@ -15,6 +17,19 @@ pub(super) fn peak_memory_bytes() -> Option<u64> {
 /// How many threads the machine runs at once.
 pub(super) fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
+}
+
+/// Has this process end when the other end of its stdin is closed, which happens when the parent is gone for whatever reason.
+///
+/// # Errors
+/// [`Error::Rehearsal`] where the system has no thread for it.
+pub(super) fn end_with_parent() -> Result<()> {
+    let wait = || {
+        let mut byte = [0];
+        while std::io::stdin().lock().read(&mut byte).is_ok_and(|n_read| n_read > 0) {}
+        crate::heap::exit_now();
+    };
+    std::thread::Builder::new().spawn(wait).map(drop).map_err(|source| Error::Rehearsal { source })
 }
 
 /// Threads for each that the machine runs at once, beyond which they only wait for each other: a job of 1.3 s takes 71 s with 512.

@@ -17,7 +17,8 @@ impl StageLine {
         Self { progress }
     }
 
-    fn show(&self, text: &str) {
+    /// Shows a line in the place of the last one.
+    pub(super) fn show(&self, text: &str) {
         if self.progress == Progress::Shown {
             // Back to the first column and clear the line: the answer that follows must not mix with it.
             let _ = write!(std::io::stderr(), "\r\x1b[2K{text}");

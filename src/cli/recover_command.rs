@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::flags::RecoverFlags;
+use super::superelement_flags::RecoverFlags;
 use super::unverified::Unverified;
 use crate::error::{Error, Result};
 use crate::job::ends_in;

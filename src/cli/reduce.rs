@@ -5,16 +5,17 @@ use std::path::{Path, PathBuf};
 use supel_runtime::{StagedFile, Superelement};
 
 use super::answer::{Program, Terminal};
-use super::command::ReduceCommand;
 use super::exit_code::ExitCode;
 use super::judging::{Answer, Strictness};
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
 use super::overwriting::OwnFiles;
 use super::pipeline::Pipeline;
 use super::progress::StageLine;
+use super::reduce_command::ReduceCommand;
 use super::rehearsal::{self, Rehearsed};
 use super::unmet::unmet;
 use super::unverified::Unverified;
+use super::up_to_date::{self, MadeEarlier, Repetition, Stale};
 use super::{memory, overwriting, process};
 use crate::audit::flaw;
 use crate::error::{Error, Result};
@@ -29,9 +30,21 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     if command.answer != Answer::Nothing {
         command.remarks.iter().for_each(|remark| terminal.complain(remark));
     }
+    let threads = process::threads(command.threads.used)?;
+    match threads.install(|| made_earlier(command)) {
+        Ok(made) => return answer_up_to_date(&made, command.answer, terminal),
+        Err(Stale::Because(reason)) if command.answer != Answer::Nothing => {
+            let path = command.job.write.superelement.display();
+            terminal.complain(&format!("supel: {path}: not up to date: {reason}"));
+        }
+        Err(_) => {}
+    }
     let mut complaints = abandoned(&own);
     refuse_unwritable(&own)?;
-    let resources = Resources { memory_bytes: memory::available_bytes() };
+    if command.available_bytes.is_some() && terminal.program == Program::Supel {
+        process::end_with_parent()?;
+    }
+    let resources = Resources { memory_bytes: command.available_bytes.or_else(memory::available_bytes) };
     let rehearsed = match terminal.program {
         Program::Supel => rehearsal::rehearse(&command.job, &[], resources.allowed(&command.job))?,
         Program::Other => Rehearsed::Nothing,
@@ -39,7 +52,6 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     if command.answer != Answer::Nothing {
         terminal.tell_threads(command.threads);
     }
-    let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);
     let outcome = threads.install(|| (pipeline.reduce)(&command.job, resources, &mut clock));
@@ -66,6 +78,24 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     answer.iter().for_each(|answer| terminal.answer(answer));
     complaints.iter().for_each(|complaint| terminal.complain(complaint));
     Ok(code)
+}
+
+/// What the job asks for, where an earlier run has made all of it and nothing has changed since.
+fn made_earlier(command: &ReduceCommand) -> Result<MadeEarlier, Stale> {
+    match command.repetition {
+        Repetition::Skipped => up_to_date::made_earlier(&command.job, command.strictness),
+        Repetition::Forced => Err(Stale::NotMade),
+    }
+}
+
+/// Answers a run that has nothing to do. Only what was verified is up to date.
+fn answer_up_to_date(made: &MadeEarlier, answer: Answer, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+    match answer {
+        Answer::Text => terminal.answer(&made.to_text()),
+        Answer::Json => terminal.answer(&made.to_json()?),
+        Answer::Nothing => {}
+    }
+    Ok(ExitCode::Done)
 }
 
 /// Writes the superelement under a temporary name and reads it back; hands it on if it may have its name.

@@ -178,7 +178,7 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     let mut line = String::new();
     std::io::stdin().lock().read_line(&mut line).map_err(failed)?;
     let task: Task = serde_json::from_str(&line).map_err(|error| failed(error.into()))?;
-    std::thread::Builder::new().spawn(end_with_parent).map_err(failed)?;
+    process::end_with_parent()?;
     let threads = process::threads(2)?;
     input::start_hdf5()?;
     let mut stdout = std::io::stdout();
@@ -189,13 +189,6 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
         Err(error @ Error::OutOfMemory { .. }) => Err(error),
         Err(_) => Ok(ExitCode::InputData),
     }
-}
-
-/// Ends this process when the other end of stdin is closed, which happens when the parent is gone for whatever reason.
-fn end_with_parent() {
-    let mut byte = [0];
-    while std::io::stdin().lock().read(&mut byte).is_ok_and(|n_read| n_read > 0) {}
-    crate::heap::exit_now();
 }
 
 #[cfg(all(test, unix))]

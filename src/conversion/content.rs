@@ -41,6 +41,25 @@ impl Shape {
         }
     }
 
+    /// How many pairs of a row and a column a general matrix has at one place only, where no pair at both places tells it from a symmetric
+    /// matrix of which entries are missing; none where one does.
+    pub fn given_once(self, matrix: &SparseMatrix) -> Option<usize> {
+        if self != Self::General {
+            return None;
+        }
+        let mut n_once = 0;
+        for (row, view) in matrix.outer_iterator().enumerate() {
+            for (col, value) in view.iter().filter(|(col, value)| *col != row && **value != 0.0) {
+                match matrix.get(col, row).copied() {
+                    None | Some(0.0) => n_once += 1,
+                    Some(image) if image != *value => return None,
+                    Some(_) => {}
+                }
+            }
+        }
+        (n_once > 0).then_some(n_once)
+    }
+
     /// The word for it.
     pub fn name(self) -> &'static str {
         match self {
@@ -56,10 +75,28 @@ mod tests {
     use super::*;
     use crate::sparse::{Declared, Triplets};
 
-    fn shape(entries: &[(u32, u32, f64)]) -> Shape {
+    fn matrix(entries: &[(u32, u32, f64)]) -> SparseMatrix {
         let mut triplets = Triplets::default();
         entries.iter().for_each(|(row, col, value)| triplets.push(*row, *col, *value));
-        Shape::of(&triplets.assemble(3, Declared::Whole, "a".as_ref()).expect("a matrix").0)
+        triplets.assemble(3, Declared::Whole, "a".as_ref()).expect("a matrix").0
+    }
+
+    fn shape(entries: &[(u32, u32, f64)]) -> Shape {
+        Shape::of(&matrix(entries))
+    }
+
+    #[test]
+    fn half_of_a_symmetric_matrix_is_told_from_a_general_one() {
+        let once = |entries: &[(u32, u32, f64)]| {
+            let matrix = matrix(entries);
+            Shape::of(&matrix).given_once(&matrix)
+        };
+        assert_eq!(once(&[(0, 0, 1.0), (1, 0, 2.0), (2, 1, 3.0)]), Some(2), "one triangle");
+        assert_eq!(once(&[(1, 0, 2.0), (1, 2, 3.0), (2, 1, 0.0)]), Some(2), "either order");
+        assert_eq!(once(&[(1, 0, 2.0), (0, 1, 2.0), (1, 2, 3.0)]), Some(1), "one entry is missing");
+        assert_eq!(once(&[(1, 0, 2.0), (0, 1, 2.5), (1, 2, 3.0)]), None, "truly general");
+        assert_eq!(once(&[(0, 0, 2.0), (1, 1, 2.5)]), None, "diagonal");
+        assert_eq!(once(&[(0, 0, 2.0), (1, 0, 2.5), (0, 1, 2.5)]), None, "symmetric");
     }
 
     #[test]

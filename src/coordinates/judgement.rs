@@ -1,7 +1,5 @@
 //! The decision about a doubt: supports, rounded coordinates, or coordinates that belong to another model.
 
-use std::collections::HashSet;
-
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
 use super::mended::mended;
@@ -10,6 +8,7 @@ use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::error::{Error, ErrorClass, Result};
 use crate::model::{CoordinateFit, Misfit};
 use crate::number::quantity;
+use crate::partition::TiedNodes;
 use supel_runtime::MOTIONS;
 
 /// Share of the Rayleigh quotient of the first elastic mode that rounded coordinates may cost. Five digits of a plate of
@@ -37,11 +36,11 @@ struct Case<'a> {
     /// Motions without energy that the coordinates explain, and rows that move by themselves.
     n_explained: usize,
     /// Labels of the nodes that patches tie by their coordinates.
-    tied: &'a HashSet<i64>,
+    tied: &'a TiedNodes,
 }
 
 /// Settles the doubts about coordinates, by the motions without energy that K has.
-pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], tied: &HashSet<i64>) -> Result<CoordinateFit> {
+pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], tied: &TiedNodes) -> Result<CoordinateFit> {
     let momenta = motions.momenta();
     let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
@@ -140,7 +139,7 @@ impl Case<'_> {
     fn refuse_out_of_place(&self, doubt: &Doubt, rotations: &[usize]) -> Result<()> {
         let motions = self.motions;
         let dof = |row: &usize| motions.model.dofs.as_ref().and_then(|dofs| dofs[*row]);
-        let is_tied = |row: &usize| dof(row).is_some_and(|dof| self.tied.contains(&dof.node));
+        let is_tied = |row: &usize| dof(row).is_some_and(|dof| self.tied.contains(dof.node));
         let witnesses = &doubt.costly[0].witnesses;
         let tied: Vec<usize> = witnesses.iter().copied().filter(is_tied).collect();
         let n_tied = motions.bodies[doubt.body].rows.iter().filter(|row| is_tied(row)).count();

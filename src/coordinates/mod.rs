@@ -36,11 +36,10 @@ mod nodes;
 mod preload;
 mod zeros;
 
-use std::collections::HashSet;
-
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
 use crate::model::{CoordinateFit, Finding, Model, Supports};
+use crate::partition::TiedNodes;
 
 use motions::Motions;
 use nodes::Nodes;
@@ -54,7 +53,7 @@ pub fn remark(model: &Model) -> Option<&'static str> {
 }
 
 /// Compares the coordinates and the dof map of a model with its stiffness; `held` lists rotations that the job says to be
-/// held by supports although no translation is, `tied` the labels of the nodes that rigid patches tie by their coordinates.
+/// held by supports although no translation is, `tied` the nodes that patches tie by their coordinates.
 ///
 /// One product with K where nothing is in doubt. Supports cost one more factorisation, a doubt a few.
 ///
@@ -62,7 +61,7 @@ pub fn remark(model: &Model) -> Option<&'static str> {
 /// [`Error::CoordinatesDoNotFit`] and [`Error::RotationsHeld`]; those of finding the zero modes of K. Of a preloaded state
 /// [`Error::PreloadCoordinates`], [`Error::PreloadHeld`], [`Error::PreloadUnbalanced`], [`Error::PreloadMisfit`], [`Error::PreloadNone`]
 /// and [`Error::PreloadTied`].
-pub fn compared(model: Model, held: &[Direction], tied: &HashSet<i64>) -> Result<Model> {
+pub fn compared(model: Model, held: &[Direction], tied: &TiedNodes) -> Result<Model> {
     let Some(sites) = model.sites() else {
         return if model.internal_forces.is_some() { Err(Error::PreloadCoordinates) } else { Ok(model) };
     };

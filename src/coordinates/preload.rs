@@ -11,12 +11,11 @@
 //! derivative of W by the rotation vectors of the nodes. That by one rotation after the other makes θ × m and has the skew part
 //! ½ m × on the diagonal, which is what the symmetric one lacks.
 
-use std::collections::HashSet;
-
 use super::motions::{AXES, Body, Motions};
 use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes};
 use crate::dense;
 use crate::error::{Error, Result};
+use crate::partition::TiedNodes;
 use supel_runtime::MOTIONS;
 use supel_runtime::motion::{IDENTITY_3, cross};
 
@@ -28,8 +27,8 @@ const UNBALANCED: f64 = 1e-4;
 /// Internal force at a tied node relative to the largest that is none: what six digits leave.
 const NO_FORCE: f64 = 1e-6;
 
-/// Confirms that K and the internal forces are of one state; `tied` are the labels of the nodes of patches.
-pub(super) fn confirmed(motions: &Motions<'_>, nodes: &Nodes, forces: &[f64], tied: &HashSet<i64>) -> Result<()> {
+/// Confirms that K and the internal forces are of one state; `tied` are the nodes of patches.
+pub(super) fn confirmed(motions: &Motions<'_>, nodes: &Nodes, forces: &[f64], tied: &TiedNodes) -> Result<()> {
     refuse_held(motions, nodes)?;
     motions.bodies.iter().try_for_each(|body| refuse_unbalanced(motions, body, forces))?;
     let turned = Turned::of(motions, nodes, forces);
@@ -161,9 +160,10 @@ impl Turned {
     }
 }
 
-/// Refuses internal forces at nodes that patches or constraints tie to rotations: the force keeps its direction while its arm turns, which
-/// is a stiffness that a congruence of K does not have.
-fn refuse_tied(motions: &Motions<'_>, forces: &[f64], tied: &HashSet<i64>) -> Result<()> {
+/// Refuses internal forces at nodes that averages or constraints tie to rotations: the force keeps its direction while its arm turns, which
+/// is a stiffness that a congruence of K does not have. That of rigid patches is known; a mean motion and a row of G are linear, and do not
+/// say how their arms turn.
+fn refuse_tied(motions: &Motions<'_>, forces: &[f64], tied: &TiedNodes) -> Result<()> {
     let model = motions.model;
     let largest = forces.iter().enumerate().filter(|(row, _)| !turns(motions, *row));
     let largest = largest.map(|(_, force)| force.abs()).fold(0.0, f64::max);
@@ -172,18 +172,19 @@ fn refuse_tied(motions: &Motions<'_>, forces: &[f64], tied: &HashSet<i64>) -> Re
         _ => 1.0,
     };
     let share = |row: usize| forces[row].abs() / size(row) / largest;
-    let is_of_patch = |row: &usize| {
-        let dof = model.dofs.as_ref().and_then(|dofs| dofs[*row]);
-        dof.is_some_and(|dof| tied.contains(&dof.node))
-    };
-    let of_patches = (0..forces.len()).filter(is_of_patch).map(|row| (row, "a patch"));
+    let node = |row: usize| model.dofs.as_ref().and_then(|dofs| dofs[row]).map(|dof| dof.node);
+    let is_averaged = |row: &usize| node(*row).is_some_and(|node| tied.average.contains(&node));
+    let of_averages = (0..forces.len()).filter(is_averaged).map(|row| (row, "an average"));
     let constraints = model.constraints.iter().flat_map(|constraints| &constraints.list);
-    let with_arms = constraints.filter(|constraint| !is_without_arm(motions, &constraint.terms));
+    // What follows a node of a patch has the arm that this has.
+    let is_of_patch = |(row, _): &(u32, f64)| node(*row as usize).is_some_and(|node| tied.contains(node));
+    let has_arms = |terms: &[(u32, f64)]| terms.iter().any(is_of_patch) || !is_without_arm(motions, terms);
+    let with_arms = constraints.filter(|constraint| has_arms(&constraint.terms));
     let of_constraints =
         with_arms.flat_map(|constraint| &constraint.terms).map(|(row, _)| (*row as usize, "a constraint"));
     // NaN is refused: without any force nothing is tied.
     let refused =
-        of_patches.chain(of_constraints).find(|(row, _)| forces[*row] != 0.0 && dense::worse(share(*row), NO_FORCE));
+        of_averages.chain(of_constraints).find(|(row, _)| forces[*row] != 0.0 && dense::worse(share(*row), NO_FORCE));
     match refused {
         Some((row, tie)) => {
             Err(Error::PreloadTied { dof: motions.name_of(row), tie, share: share(row), limit: NO_FORCE })

@@ -7,6 +7,7 @@ use crate::factor::{Analysis, count_below_freeing};
 use crate::job::{Boundary, ModeSelection};
 use crate::partition::Partition;
 use crate::plan::{Modes, Plan};
+use crate::rigid::{RigidBodyModes, rigid_body_modes, with_passing};
 
 /// Modes assumed in a band in which they are not counted.
 const IN_A_BAND: usize = 50;
@@ -75,6 +76,11 @@ fn counted(plan: &Plan, partition: &Partition, analysis: &Analysis, up_to_hz: f6
         Err(Error::SturmPivot) => Ok(None),
         Err(error) => Err(error),
         Ok(count) if boundary == Boundary::FixedInterface && !is_modal => Ok(Some(count.clamped)),
+        Ok(count) if boundary == Boundary::MixedInterface => {
+            let rigid = with_passing(rigid_body_modes(partition)?.0, partition)?;
+            let n_passing = rigid.under(boundary).map_or(0, RigidBodyModes::count);
+            Ok(Some(count.free.saturating_sub(n_passing)))
+        }
         Ok(count) => Ok(Some(count.free.saturating_sub(n_rigid))),
     }
 }

@@ -64,8 +64,9 @@ impl Sizes {
     pub fn of(plan: &Plan, partition: &Partition, analysis: &Analysis, (n_modes, text_bytes): (usize, u64)) -> Self {
         let job = plan.job();
         let n_relief = plan.facts().map_or(0, |facts| plan.relief().motions(facts.n_rigid, facts.modes_in_file).len());
+        let n_residual = partition.loads.facts.iter().filter(|load| load.has_residual_vector).count();
         Self {
-            n_answers: (n_relief + partition.loads.count() + partition.expansion.count()) as f64,
+            n_answers: (n_relief + n_residual + partition.expansion.count()) as f64,
             text_bytes: text_bytes as f64,
             statics: plan.statics(),
             modes: plan.modes(),

@@ -4,7 +4,7 @@ use std::ffi::OsStr;
 use std::fmt;
 use std::path::Path;
 
-use crate::number::{bytes, quantity};
+use crate::number::{bytes, counted, quantity};
 
 /// How to go on where a dof map cannot be used.
 pub(super) const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in reduce --interface hub=rows:0,1,2";
@@ -153,4 +153,18 @@ pub(super) fn multipliers(n_single: usize, n_of_pairs: usize) -> String {
         format!("{n_of_pairs} in pairs, massless, coupled alike and with opposite numbers on and off the diagonal")
     });
     single.into_iter().chain(of_pairs).collect::<Vec<_>>().join(", ")
+}
+
+/// A relative energy below zero; one of −∞ is that of a coupling without mass.
+pub(super) fn kinetic_energy(relative: f64) -> String {
+    if relative.is_finite() {
+        format!("a kinetic energy of {relative:.1e} relative to its diagonal")
+    } else {
+        "the kinetic energy of a dof that has no mass and is coupled to the mass of another one".to_owned()
+    }
+}
+
+/// How many files there are besides the one that is named.
+pub(super) fn and_more(n: usize) -> String {
+    if n > 0 { format!(" (and {} like it)", counted(n as u64, "file", "files")) } else { String::new() }
 }

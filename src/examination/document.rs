@@ -38,7 +38,7 @@ impl Serialize for Examined {
         document.serialize_field("grounded", grounded)?;
         document.serialize_field("n_massless", n_massless)?;
         document.serialize_field("extents", extents)?;
-        document.serialize_field("units", units)?;
+        document.serialize_field("units", units.guesses())?;
         document.serialize_field("modes", &body.as_ref().map(|body| &body.reduction.modes))?;
         document.serialize_field("interfaces", interfaces)?;
         document.end()

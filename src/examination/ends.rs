@@ -19,7 +19,8 @@ pub struct EndFace {
     pub n_nodes: usize,
 }
 
-/// The faces at both ends of the longest extent, where both are flat; of the next one where they are not.
+/// The faces at both ends of the longest extent, where both are flat; of the next one where they are not. A face with a held node is none
+/// that an interface could be.
 pub(super) fn end_faces(partition: &Partition) -> Vec<EndFace> {
     let Some(sites) = partition.sites() else { return Vec::new() };
     let mut positions: Vec<(u32, [f64; 3])> = Vec::new();
@@ -29,23 +30,29 @@ pub(super) fn end_faces(partition: &Partition) -> Vec<EndFace> {
     positions.sort_by_key(|(node, _)| *node);
     positions.dedup_by_key(|(node, _)| *node);
     let positions: Vec<[f64; 3]> = positions.into_iter().map(|(_, position)| position).collect();
-    let end = |axis: usize, pick: fn(f64, f64) -> f64| positions.iter().map(|position| position[axis]).reduce(pick);
+    let held: Vec<[f64; 3]> = partition.held.positions().collect();
+    let all = || positions.iter().chain(&held);
+    let end = |axis: usize, pick: fn(f64, f64) -> f64| all().map(|position| position[axis]).reduce(pick);
     let ends = |axis: usize| Some([end(axis, f64::min)?, end(axis, f64::max)?]);
     let mut axes: Vec<(usize, [f64; 2])> = (0..3).filter_map(|axis| Some((axis, ends(axis)?))).collect();
     axes.sort_by(|a, b| (b.1[1] - b.1[0]).total_cmp(&(a.1[1] - a.1[0])));
     let longest = axes.first().map_or(0.0, |(_, [low, high])| high - low);
     let faces = |(axis, ends): &(usize, [f64; 2])| {
-        let faces =
-            [("minus", ends[0]), ("plus", ends[1])].map(|(which, at)| face(&positions, (*axis, which), (at, longest)));
-        let is_patch = |face: &EndFace| face.n_nodes >= LEAST_NODES && 2 * face.n_nodes < positions.len();
-        faces.iter().all(is_patch).then(|| faces.into())
+        let is_at = |position: &[f64; 3], at: f64| (position[*axis] - at).abs() <= FLAT * longest;
+        let is_held = |at: f64| held.iter().any(|position| is_at(position, at));
+        let n_nodes = |at: f64| positions.iter().filter(|position| is_at(position, at)).count();
+        let is_patch = |at: f64| n_nodes(at) >= LEAST_NODES && 2 * n_nodes(at) < positions.len();
+        let faces = [("minus", ends[0]), ("plus", ends[1])];
+        let are_flat = faces.iter().all(|(_, at)| is_held(*at) || is_patch(*at));
+        let free = faces.into_iter().filter(|(_, at)| !is_held(*at));
+        let free: Vec<EndFace> =
+            free.map(|(which, at)| face((*axis, which), (at, FLAT * longest), n_nodes(at))).collect();
+        (are_flat && !free.is_empty()).then_some(free)
     };
     axes.iter().filter(|(_, [low, high])| high > low).find_map(faces).unwrap_or_default()
 }
 
-fn face(positions: &[[f64; 3]], (axis, which): (usize, &str), (at, longest): (f64, f64)) -> EndFace {
-    let tolerance = FLAT * longest;
-    let n_nodes = positions.iter().filter(|position| (position[axis] - at).abs() <= tolerance).count();
+fn face((axis, which): (usize, &str), (at, tolerance): (f64, f64), n_nodes: usize) -> EndFace {
     let along = |value: f64| std::array::from_fn(|other| if other == axis { value } else { 0.0 });
     let region = Region::Plane { point: along(at), normal: along(1.0), tolerance };
     EndFace { name: format!("{which}-{}", ["x", "y", "z"][axis]), region, n_nodes }

@@ -1,14 +1,14 @@
 //! What an examination found.
 
-use super::culprits::{self, Grounded};
+use super::culprits::Grounded;
 use super::ends::{self, EndFace};
 use super::finding::{Finding, Severity};
 use super::interfaces::{self, Candidate};
 use super::retreat::{Retreat, retreat};
-use super::units::{self, Sizes, UnitGuess};
+use super::sizes::{self, Sizes};
+use super::units::{self, UnitGuess, Units};
 use crate::dofs::Nodes;
-use crate::eigen::median_ratio;
-use crate::error::Error;
+use crate::error::{Error, ErrorClass};
 use crate::input::InputFacts;
 use crate::job::Job;
 use crate::number::{counted, quantity};
@@ -27,7 +27,7 @@ pub struct Examination {
     grounded: Option<Grounded>,
     n_massless: Option<usize>,
     extents: Option<[f64; 3]>,
-    units: Vec<UnitGuess>,
+    units: Units,
     interfaces: Vec<Candidate>,
     ends: Vec<EndFace>,
     facts: Option<InputFacts>,
@@ -45,7 +45,7 @@ pub struct Examined {
     /// Its extents along the axes.
     pub extents: Option<[f64; 3]>,
     /// The systems of units that it may be in.
-    pub units: Vec<UnitGuess>,
+    pub units: Units,
     /// The groups of the mesh.
     pub interfaces: Vec<Candidate>,
     /// Flat faces at the ends of its longest extent, where no group can be an interface.
@@ -59,9 +59,13 @@ pub struct Examined {
 }
 
 impl Examination {
-    /// Keeps what a stage has refused, unless that has been said before.
-    pub fn refused(&mut self, finding: Finding) {
-        if !self.findings.iter().any(|other| other.code == finding.code && other.what == finding.what) {
+    /// Keeps why a stage has refused a model, and how it goes on; what was wrong before and still is, is said once.
+    pub fn refused(&mut self, error: &Error, went_on: Option<&str>) {
+        let finding = Finding::of_error(error, went_on);
+        // Without nodes and map another name of the place is all that differs.
+        let is_of_matrices = matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit);
+        let is_known = |other: &Finding| other.code == finding.code && (is_of_matrices || other.what == finding.what);
+        if !self.findings.iter().any(is_known) {
             self.findings.push(finding);
         }
     }
@@ -78,13 +82,8 @@ impl Examination {
         self.grounded = Grounded::of(partition);
         let masses = diagonal(&partition.mass);
         self.n_massless = Some(masses.iter().filter(|mass| **mass == 0.0).count());
-        self.extents = culprits::extents(partition);
-        if let (Some(extents), Some(spacing), Some(mass)) =
-            (self.extents, culprits::spacing(partition), culprits::total_mass(partition))
-        {
-            let ratio = median_ratio(partition.free_problem()) * partition.scaling.eigenvalue_unit();
-            self.units = units::guesses(Sizes { mass, extents, spacing, ratio });
-        }
+        self.extents = sizes::extents(partition);
+        self.units = Sizes::of(partition).map_or(Units::Untold, units::of);
         self.interfaces = nodes.map_or_else(Vec::new, |nodes| interfaces::candidates(partition, nodes));
         if !self.interfaces.iter().any(Candidate::holds_all) {
             self.ends = ends::end_faces(partition);
@@ -94,9 +93,9 @@ impl Examination {
     /// Ends with what the lowest modes say of the model of a job, where no stage refused it.
     pub fn ended(self, job: Job, body: Option<ReportBody>) -> Examined {
         let Self { mut findings, grounded, n_massless, extents, units, interfaces, ends, facts } = self;
-        let unit = units.first().map_or("", |guess| guess.stiffness);
+        let unit = units.only().map_or("", |guess| guess.stiffness);
         findings.extend(grounded.as_ref().and_then(|grounded| held(grounded, body.as_ref(), unit)));
-        findings.extend(units.first().and_then(of_units));
+        findings.extend(of_units(&units));
         if let Some(body) = &body {
             findings.extend(of_body(body));
         }
@@ -139,7 +138,7 @@ fn held(grounded: &Grounded, body: Option<&ReportBody>, unit: &str) -> Option<Fi
         (
             Severity::Remark,
             format!(
-                "supports hold the component: {} next to dofs that are not in the matrices, first {}",
+                "supports hold the component: {} next to dofs that are not in the stiffness, first {}",
                 counted(grounded.n_touched, "row is", "rows are"),
                 first.dof
             ),
@@ -154,30 +153,28 @@ fn held(grounded: &Grounded, body: Option<&ReportBody>, unit: &str) -> Option<Fi
     Some(Finding { severity, code: None, what, remedy, lines, went_on: None })
 }
 
-/// Units that do not go together, and frequencies that are in kHz.
-fn of_units(guess: &UnitGuess) -> Option<Finding> {
-    let finding = |severity, what: String, remedy: &str, lines: Vec<String>| Finding {
-        severity,
+/// Units that may not go together, and frequencies that are in kHz.
+fn of_units(units: &Units) -> Option<Finding> {
+    let remark = |what: String, remedy: String, lines: Vec<String>| Finding {
+        severity: Severity::Remark,
         code: None,
         what,
-        remedy: remedy.to_owned(),
+        remedy,
         lines,
         went_on: None,
     };
-    match (guess.is_mixed, guess.label) {
-        (true, _) => Some(finding(
-            Severity::Warning,
+    match units.guesses() {
+        // No sound system explains the model as well.
+        [UnitGuess { system, is_mixed: true, frequencies, mend, .. }, ..] => Some(remark(
             format!(
-                "density and speed of sound are those of {}: frequencies come out {}",
-                guess.system, guess.frequencies
+                "density and speed of sound fit no system of units, but a mixture: {system}; frequencies come out {frequencies} then"
             ),
-            "write both matrices in one system of units",
+            format!("compare the mass of the body with what the component weighs; if that is {mend}"),
             Vec::new(),
         )),
-        (false, Some(label)) if guess.frequencies.contains("kHz") => Some(finding(
-            Severity::Remark,
-            format!("the units look like {}: frequencies are {}", guess.system, guess.frequencies),
-            "give --up-to-hz and bands of the job in kHz, or write the matrices with time in seconds",
+        [UnitGuess { system, label: Some(label), frequencies, .. }, ..] if frequencies.contains("kHz") => Some(remark(
+            format!("the units look like {system}: frequencies are {frequencies}"),
+            "give --up-to-hz and bands of the job in kHz, or write the matrices with time in seconds".to_owned(),
             vec![format!("units = \"{label}\"          # [model] of the job")],
         )),
         _ => None,
@@ -190,14 +187,21 @@ fn of_body(body: &ReportBody) -> Vec<Finding> {
     let mut findings: Vec<Finding> = warnings.map(Finding::of_warning).collect();
     let failed = body.checks.iter().filter(|check| check.verdict() == Verdict::Fail);
     findings.extend(failed.map(Finding::of_check));
-    let notes = body.model.notes.iter().map(|note| Finding {
-        severity: Severity::Remark,
-        code: None,
-        what: note.clone(),
-        remedy: String::new(),
-        lines: Vec::new(),
-        went_on: None,
-    });
+    let is_told = |note: &&String| !findings.iter().any(|finding| finding.what == **note);
+    let notes: Vec<Finding> = body
+        .model
+        .notes
+        .iter()
+        .filter(is_told)
+        .map(|note| Finding {
+            severity: Severity::Remark,
+            code: None,
+            what: note.clone(),
+            remedy: String::new(),
+            lines: Vec::new(),
+            went_on: None,
+        })
+        .collect();
     findings.extend(notes);
     findings
 }

@@ -61,12 +61,15 @@ impl Finding {
             Some((what, remedy)) => (what.to_owned(), remedy.to_owned()),
             None => (warning.message.clone(), String::new()),
         };
-        let lines = match warning.code {
-            "W-DATA-PRECISION" => vec![
-                "stiffness_digits = 17       # [model] of the job, if the numbers are exact".to_owned(),
-                "mass_digits = 17".to_owned(),
-            ],
-            _ => Vec::new(),
+        let (remedy, lines) = match warning.code {
+            "W-DATA-PRECISION" => (
+                format!("{remedy}; until then checks of a reduction may fail, and no superelement is written"),
+                vec![
+                    "stiffness_digits = 17       # [model] of the job, if the numbers are exact".to_owned(),
+                    "mass_digits = 17".to_owned(),
+                ],
+            ),
+            _ => (remedy, Vec::new()),
         };
         Self { severity: Severity::Warning, code: Some(warning.code), what, remedy, lines, went_on: None }
     }

@@ -1,9 +1,12 @@
 //! Node groups of the mesh that can be interfaces.
 
+use std::collections::{HashMap, HashSet};
+
 use serde::Serialize;
 
 use crate::dense;
 use crate::dofs::Nodes;
+use crate::number::counted;
 use crate::partition::{Fit, Partition, hole, sphere};
 
 /// Dofs of an interface whose nodes keep their own: more make a superelement large.
@@ -54,14 +57,20 @@ pub struct Surface {
 
 /// What the groups of a mesh are good for.
 pub(super) fn candidates(partition: &Partition, nodes: &Nodes) -> Vec<Candidate> {
-    let mut of_label = std::collections::HashMap::new();
+    let mut of_label = HashMap::new();
     for (at, dof) in partition.dofs.iter().enumerate() {
         if let Some(dof) = dof.dof {
             of_label.entry(dof.node).or_insert_with(Vec::new).push(at);
         }
     }
     let n_nodes = of_label.len();
+    let bits = |position: [f64; 3]| position.map(f64::to_bits);
+    let held: HashSet<[u64; 3]> = partition.held.positions().map(bits).collect();
     let of_group = |(name, members): (&String, &Vec<usize>)| {
+        let n_held = members.iter().filter(|member| held.contains(&bits(nodes.coordinates[**member]))).count();
+        if n_held > 0 {
+            return of_held(name.clone(), members.len(), n_held);
+        }
         let mut labels: Vec<i64> = members.iter().map(|member| nodes.labels[*member]).collect();
         labels.retain(|label| of_label.contains_key(label));
         labels.sort_unstable();
@@ -69,6 +78,19 @@ pub(super) fn candidates(partition: &Partition, nodes: &Nodes) -> Vec<Candidate>
         candidate(partition, name.clone(), (labels, n_nodes), &dofs)
     };
     nodes.groups.iter().map(of_group).collect()
+}
+
+/// A group that no interface can be, as nodes of it are held.
+fn of_held(group: String, n_nodes: usize, n_held: usize) -> Candidate {
+    let remark = match n_nodes - n_held {
+        0 => "it is held".to_owned(),
+        _ => format!(
+            "{} held: list the others, if they are to be an interface",
+            counted(n_held, "node of it is", "nodes of it are")
+        ),
+    };
+    let (couplings, labels) = (Vec::new(), Vec::new());
+    Candidate { group, n_nodes, n_dofs: 0, couplings, remark: Some(remark), surface: None, labels }
 }
 
 fn candidate(partition: &Partition, group: String, (labels, of_model): (Vec<i64>, usize), dofs: &[usize]) -> Candidate {

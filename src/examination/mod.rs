@@ -11,6 +11,7 @@ mod finding;
 mod interfaces;
 mod proposal;
 mod retreat;
+mod sizes;
 mod text;
 mod units;
 
@@ -20,4 +21,4 @@ pub use finding::{Finding, Severity};
 pub use interfaces::{Candidate, Surface};
 pub use proposal::proposal;
 pub use retreat::{Retreat, is_of_model};
-pub use units::UnitGuess;
+pub use units::{UnitGuess, Units};

@@ -10,7 +10,7 @@ use super::ends::EndFace;
 use super::examined::Examined;
 use super::finding::Severity;
 use super::interfaces::Candidate;
-use super::text::on_surface;
+use super::text::{on_surface, units as in_words};
 use crate::job::NodeSelection;
 use crate::number::{counted, quantity};
 use crate::report::printable;
@@ -98,11 +98,27 @@ impl Proposal<'_> {
         if model.drop_empty {
             text += &line("drop_empty", true, "rows without stiffness and mass");
         }
-        let guess = self.examined.units.first();
-        if let Some((guess, label)) = guess.and_then(|guess| Some((guess, guess.label?))) {
-            let remark =
-                format!("check: {}, frequencies {}, by density and speed of sound", guess.system, guess.frequencies);
-            text += &line("units", label, &remark);
+        let units = &self.examined.units;
+        match units.only().and_then(|guess| Some((guess, guess.label?))) {
+            Some((guess, label)) => {
+                let remark = format!(
+                    "check: {}, frequencies {}, by density and speed of sound",
+                    guess.system, guess.frequencies
+                );
+                text += &line("units", label, &remark);
+            }
+            None if units.guesses().is_empty() => {}
+            None => {
+                let labels: Vec<String> = units
+                    .guesses()
+                    .iter()
+                    .filter_map(|guess| guess.label)
+                    .map(|label| format!("\"{label}\""))
+                    .collect();
+                let known =
+                    if labels.is_empty() { String::new() } else { format!(", such as {}", labels.join(" or ")) };
+                text += &comment(&format!("units = the label of your system{known}. Units: {}.", in_words(units)));
+            }
         }
         text
     }

@@ -34,6 +34,12 @@ pub(super) fn retreat(job: &Job, error: &Error) -> Option<Retreat> {
             model.drop_empty = true;
             "without the empty rows"
         }
+        // Where each triangle lacks entries of the other, neither of them is the matrix.
+        Error::Unsymmetric { unpaired, .. } if !unpaired.contains(&0) => return None,
+        Error::Unsymmetric { unpaired: [0, above], .. } if *above > 0 && model.symmetric.is_none() => {
+            model.symmetric = Some(Triangle::Upper);
+            "with the upper triangle for both"
+        }
         Error::Unsymmetric { .. } if model.symmetric.is_none() => {
             model.symmetric = Some(Triangle::Lower);
             "with the lower triangle for both"

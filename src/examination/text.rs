@@ -3,6 +3,7 @@
 use super::examined::Examined;
 use super::finding::{Finding, Severity};
 use super::interfaces::Surface;
+use super::units::{UnitGuess, Units};
 use crate::input::MatrixFacts;
 use crate::number::{counted, quantity, scientific};
 use crate::report::page::{Page, Paint, Tone, WIDTH};
@@ -62,23 +63,12 @@ impl Examined {
         }
         let motions = match rigid_body_modes.count {
             0 => "none free: supports hold it".to_owned(),
-            6 => "six free, as of a body in space".to_owned(),
+            6 if *n_bodies == 1 => "six free, as of a body in space".to_owned(),
             count => format!("{} free", counted(count, "motion is", "motions are")),
         };
         page.entry("rigid body", &motions);
         mass_properties(page, properties);
-        let units = match self.units.as_slice() {
-            [] if self.extents.is_some() => {
-                "density and speed of sound are those of no system that is known".to_owned()
-            }
-            [] => "not told without coordinates: give --nodes".to_owned(),
-            [only] => format!("{}, by density and speed of sound; frequencies {}", only.system, only.frequencies),
-            [likeliest, others @ ..] => {
-                let others: Vec<&str> = others.iter().map(|guess| guess.system).collect();
-                format!("{}, or {}", likeliest.system, others.join(", or "))
-            }
-        };
-        page.entry("units", &units);
+        page.entry("units", &units(&self.units));
     }
 
     fn interfaces(&self, page: &mut Page) {
@@ -108,6 +98,31 @@ impl Examined {
             return;
         }
         self.findings.iter().for_each(|finding| told(page, finding));
+    }
+}
+
+/// The systems of units in words.
+pub(super) fn units(units: &Units) -> String {
+    let guesses = match units {
+        Units::Untold => return "not told without coordinates: give --nodes".to_owned(),
+        Units::NoVolume => {
+            return "not told: the nodes lie in a plane or on a line, so that the density is unknown".to_owned();
+        }
+        Units::Guessed(guesses) => guesses,
+    };
+    let named = |guess: &UnitGuess| match guess.is_mixed {
+        true => format!("a mixture of {} (frequencies come out {} then)", guess.system, guess.frequencies),
+        false => guess.system.to_owned(),
+    };
+    match guesses.as_slice() {
+        [] => "density and speed of sound are those of no system that is known".to_owned(),
+        [only] if !only.is_mixed => {
+            format!("{}, by density and speed of sound; frequencies {}", only.system, only.frequencies)
+        }
+        _ => {
+            let listed: Vec<String> = guesses.iter().map(named).collect();
+            format!("{}, by density and speed of sound", listed.join(", or "))
+        }
     }
 }
 

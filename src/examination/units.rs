@@ -1,24 +1,35 @@
 //! Which units a model may be in, by its density and by the speed of sound.
 //!
 //! ```text
-//! ρ ≈ m / (volume of the box around it)          a part fills some of its box: a lower bound of its density
+//! ρ ≥ m / (volume of the box around it)          a part fills some of its box, a frame one part in 10⁵
 //! c ≈ h √(K_ii / M_ii) / √3                       h the distance of neighbours: for a bar of linear elements 3c²/h²
 //! ```
-//! Materials of structures lie within a factor of ten of steel in both. Systems of units that are in use lie a factor of thirty and more
-//! apart in one of the two.
+//! Structures are of materials in which sound travels at 1 to 13 km/s. Rubber and foam are slower, and listed after them. Two
+//! numbers tell systems of units apart and not mixtures of them from a sound system: a block of steel with stiffness in N/mm and mass in
+//! kilograms is a thin wooden frame in inches. So what fits is listed, and no mass is called wrong.
 
 use serde::Serialize;
+
+use super::sizes::{NodeKind, Sizes};
 
 /// Density of steel in kg/m³.
 const DENSITY: f64 = 7850.0;
 /// Speed of sound along a bar of it in m/s.
 const SPEED: f64 = 5000.0;
-/// A part of wood or foam in a box that it hardly fills has a density this share of that of steel, as the box tells.
-const LEAST_FILLED: f64 = 1e-4;
+/// Mass in the box over that of steel that fills it: a shell of solid elements, of a light metal.
+const LEAST_OF_SOLIDS: f64 = 2e-3;
+/// That of a frame of beams with a slenderness of a few hundred.
+const LEAST_OF_FRAMES: f64 = 5e-6;
 /// Tungsten in a box that it fills, and what the estimate is off by.
 const MOST_FILLED: f64 = 4.0;
-/// How far the speed may be off, either way: other materials, and elements of other shapes.
+/// The most of rubber and foam.
+const MOST_OF_SOFT: f64 = 0.3;
+/// How far the speed may be off that of steel, either way: other materials, and elements of other shapes.
 const SPEED_OFF: f64 = 8.0;
+/// How much slower it is in soft rubber, estimated as badly.
+const SOFT_OFF: f64 = 500.0;
+/// Smallest extent over the largest below which nodes of beams and shells lie in a plane, and the box has no volume that means anything.
+const FLAT: f64 = 1e-2;
 
 /// A system of units that a model may be in.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,6 +44,39 @@ pub struct UnitGuess {
     pub frequencies: &'static str,
     /// Whether K and M are not in one system of units.
     pub is_mixed: bool,
+    /// What to do where the component weighs what the unit of a mixture says.
+    #[serde(skip)]
+    pub mend: &'static str,
+}
+
+/// What is known of the units of a model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Units {
+    /// Nothing: there are no coordinates.
+    #[default]
+    Untold,
+    /// The nodes lie in a plane or on a line, so that nothing is known of the density.
+    NoVolume,
+    /// Density and speed of sound are those of these systems, the likeliest first and mixtures last.
+    Guessed(Vec<UnitGuess>),
+}
+
+impl Units {
+    /// The systems that fit.
+    pub fn guesses(&self) -> &[UnitGuess] {
+        match self {
+            Self::Guessed(guesses) => guesses,
+            Self::Untold | Self::NoVolume => &[],
+        }
+    }
+
+    /// The system, where only one fits and that is none of the mixtures.
+    pub fn only(&self) -> Option<&UnitGuess> {
+        match self.guesses() {
+            [only] if !only.is_mixed => Some(only),
+            _ => None,
+        }
+    }
 }
 
 /// A system: metres in its unit of length, kilograms in that of mass as M has it, seconds in the time that frequencies come out in.
@@ -50,7 +94,7 @@ const fn sound(
     [length, mass, time]: [f64; 3],
 ) -> System {
     System {
-        guess: UnitGuess { system, label: Some(label), stiffness, frequencies, is_mixed: false },
+        guess: UnitGuess { system, label: Some(label), stiffness, frequencies, is_mixed: false, mend: "" },
         length,
         mass,
         time,
@@ -59,17 +103,18 @@ const fn sound(
 
 const fn mixed(
     [system, stiffness]: [&'static str; 2],
-    frequencies: &'static str,
+    [frequencies, mend]: [&'static str; 2],
     [length, mass, time]: [f64; 3],
 ) -> System {
-    System { guess: UnitGuess { system, label: None, stiffness, frequencies, is_mixed: true }, length, mass, time }
+    let guess = UnitGuess { system, label: None, stiffness, frequencies, is_mixed: true, mend };
+    System { guess, length, mass, time }
 }
 
 const HERTZ: &str = "in Hz";
 
 /// Systems in use, and mixtures that are made by mistake. A pound of mass next to a pound of force makes time run √386 too slow, a
 /// kilogram next to N/mm √1000.
-const SYSTEMS: [System; 9] = [
+static SYSTEMS: [System; 9] = [
     sound(["m, kg, s (N/m, Pa)", "N/m"], "m-kg-s", HERTZ, [1.0, 1.0, 1.0]),
     sound(["mm, t, s (N/mm, MPa)", "N/mm"], "mm-t-s", HERTZ, [1e-3, 1e3, 1.0]),
     sound(["mm, kg, ms (kN/mm, GPa)", "kN/mm"], "mm-kg-ms", "in kHz: 1 of --up-to-hz is 1000 Hz", [1e-3, 1.0, 1e-3]),
@@ -79,73 +124,133 @@ const SYSTEMS: [System; 9] = [
     sound(["ft, slug, s (lbf/ft)", "lbf/ft"], "ft-slug-s", HERTZ, [0.3048, 14.593_9, 1.0]),
     mixed(
         ["stiffness in N/mm, mass in kg, lengths in mm", "N/mm"],
-        "√1000 = 31.6 times too low: divide the mass by 1000, so that it is in t",
+        ["√1000 = 31.6 times too low", "in kg, divide the mass matrix by 1000, so that it is in t"],
         [1e-3, 1.0, 1.0 / 31.622_776_6],
     ),
     mixed(
         ["stiffness in lbf/in, mass in lb, lengths in inches", "lbf/in"],
-        "√386 = 19.6 times too low: divide the mass by 386.09",
+        ["√386 = 19.6 times too low", "in lb, divide the mass matrix by 386.09, so that it is in lbf s²/in"],
         [0.0254, 0.453_592_37, 1.0 / 19.649],
     ),
 ];
 
-/// What is measured of a model, in its own units.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sizes {
-    pub(super) mass: f64,
-    pub(super) extents: [f64; 3],
-    pub(super) spacing: f64,
-    /// The median of K_ii / M_ii.
-    pub(super) ratio: f64,
+/// How a system explains a model.
+struct Fit<'a> {
+    guess: &'a UnitGuess,
+    /// Density of the box over that of steel.
+    filled: f64,
+    /// Speed of sound over that in steel.
+    speed: f64,
 }
 
-/// The systems that a model may be in, the likeliest first.
-pub(super) fn guesses(sizes: Sizes) -> Vec<UnitGuess> {
-    // A flat part has no extent along one axis; its elements have some thickness.
+impl Fit<'_> {
+    /// Whether a structure of metal, wood, concrete, plastics or composites explains it.
+    fn is_stiff(&self, least: f64) -> bool {
+        (least..=MOST_FILLED).contains(&self.filled) && (SPEED_OFF.recip()..=SPEED_OFF).contains(&self.speed)
+    }
+
+    /// Whether one of rubber or foam does.
+    fn is_soft(&self, least: f64) -> bool {
+        (least..=MOST_OF_SOFT).contains(&self.filled) && (SOFT_OFF.recip()..SPEED_OFF.recip()).contains(&self.speed)
+    }
+}
+
+/// The systems that a model may be in. What the density says is an interval, so that the speed orders them.
+pub(super) fn of(sizes: Sizes) -> Units {
     let longest = sizes.extents.iter().fold(0.0f64, |max, extent| max.max(*extent));
-    let volume: f64 = sizes.extents.iter().map(|extent| extent.max(1e-2 * longest)).product();
-    let (density, speed) = (sizes.mass / volume, sizes.spacing * (sizes.ratio / 3.0).sqrt());
-    let distance = |system: &System| {
-        let of_density = density / (DENSITY * system.length.powi(3) / system.mass);
-        let of_speed = speed / (SPEED * system.time / system.length);
-        let fits =
-            (LEAST_FILLED..=MOST_FILLED).contains(&of_density) && (SPEED_OFF.recip()..=SPEED_OFF).contains(&of_speed);
-        // A third of its box is what most parts fill.
-        fits.then(|| (3.0 * of_density).ln().abs() + of_speed.ln().abs())
+    let shortest = sizes.extents.iter().fold(f64::INFINITY, |min, extent| min.min(*extent));
+    let (least, flat) = match sizes.nodes {
+        NodeKind::Translations => (LEAST_OF_SOLIDS, 0.0),
+        NodeKind::Rotations => (LEAST_OF_FRAMES, FLAT),
     };
-    let mut found: Vec<(f64, &UnitGuess)> =
-        SYSTEMS.iter().filter_map(|system| Some((distance(system)?, &system.guess))).collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
-    found.into_iter().map(|(_, guess)| guess.clone()).collect()
+    if shortest <= flat * longest {
+        return Units::NoVolume;
+    }
+    let volume: f64 = sizes.extents.iter().product();
+    let (density, speed) = (sizes.mass / volume, sizes.spacing * (sizes.ratio / 3.0).sqrt());
+    let fit = |system: &'static System| Fit {
+        guess: &system.guess,
+        filled: density / (DENSITY * system.length.powi(3) / system.mass),
+        speed: speed / (SPEED * system.time / system.length),
+    };
+    let mut fits: Vec<Fit<'_>> = SYSTEMS.iter().map(fit).collect();
+    fits.sort_by(|a, b| a.speed.ln().abs().total_cmp(&b.speed.ln().abs()));
+    let sound = || fits.iter().filter(|fit| !fit.guess.is_mixed);
+    let mut found: Vec<&UnitGuess> = sound().filter(|fit| fit.is_stiff(least)).map(|fit| fit.guess).collect();
+    found.extend(sound().filter(|fit| fit.is_soft(least)).map(|fit| fit.guess));
+    found.extend(fits.iter().filter(|fit| fit.guess.is_mixed && fit.is_stiff(least)).map(|fit| fit.guess));
+    Units::Guessed(found.into_iter().cloned().collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A steel block of 100 × 40 × 30 mm that fills half of its box, in elements of 5 mm.
-    fn block(system: &System) -> Sizes {
+    /// Young's modulus in Pa and density in kg/m³ of what components are made of.
+    const MATERIALS: [(&str, f64, f64); 8] = [
+        ("steel", 2.1e11, 7850.0),
+        ("aluminium", 7.0e10, 2700.0),
+        ("lead", 1.6e10, 11340.0),
+        ("tungsten", 4.1e11, 19300.0),
+        ("wood", 1.1e10, 500.0),
+        ("polyamide", 2.5e9, 1140.0),
+        ("rubber", 1.0e7, 1100.0),
+        ("carbon fibre", 1.4e11, 1600.0),
+    ];
+
+    /// A component in a box of 1 × 0.4 × 0.3 m that it fills to a share, its nodes 0.05 m apart.
+    fn component((young, density): (f64, f64), filled: f64, nodes: NodeKind, system: &System) -> Sizes {
         let (length, mass, time) = (system.length, system.mass, system.time);
         Sizes {
-            mass: 0.5 * DENSITY * 0.1 * 0.04 * 0.03 / mass,
-            extents: [0.1, 0.04, 0.03].map(|extent| extent / length),
-            spacing: 0.005 / length,
-            ratio: 3.0 * (SPEED / 0.005 * time).powi(2),
+            mass: filled * density * 0.12 / mass,
+            extents: [1.0, 0.4, 0.3].map(|extent| extent / length),
+            spacing: 0.05 / length,
+            ratio: 3.0 * young / density * (time / 0.05).powi(2),
+            nodes,
         }
     }
 
     #[test]
-    fn every_system_is_recognised_by_a_steel_part() {
+    fn every_system_is_among_those_of_a_sound_component() {
+        for system in SYSTEMS.iter().filter(|system| !system.guess.is_mixed) {
+            for (name, young, density) in MATERIALS {
+                for (filled, nodes) in [(1.0, NodeKind::Translations), (0.2, NodeKind::Translations)]
+                    .into_iter()
+                    .chain([0.3, 1e-2, 1e-4].map(|filled| (filled, NodeKind::Rotations)))
+                {
+                    let found = of(component((young, density), filled, nodes, system));
+                    let place = found.guesses().iter().position(|guess| guess == &system.guess);
+                    assert!(place.is_some(), "{name} {filled} {nodes:?} {}: {found:?}", system.guess.system);
+                    let is_mixed = found.guesses().iter().map(|guess| guess.is_mixed);
+                    assert!(is_mixed.is_sorted(), "{name} {filled} {nodes:?} {}: {found:?}", system.guess.system);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_solid_of_steel_is_of_its_system_first() {
         for system in &SYSTEMS {
-            let found = guesses(block(system));
-            assert_eq!(found.first(), Some(&system.guess), "{found:?}");
+            let found = of(component((2.1e11, 7850.0), 0.5, NodeKind::Translations, system));
+            let first = found.guesses().iter().find(|guess| guess.is_mixed == system.guess.is_mixed);
+            assert_eq!(first, Some(&system.guess), "{found:?}");
         }
     }
 
     #[test]
     fn nothing_is_guessed_of_what_is_in_no_system() {
-        let steel = block(&SYSTEMS[0]);
-        assert!(guesses(Sizes { mass: 1e9 * steel.mass, ..steel }).is_empty());
-        assert!(guesses(Sizes { ratio: 1e9 * steel.ratio, ..steel }).is_empty());
+        let steel = component((2.1e11, 7850.0), 0.5, NodeKind::Translations, &SYSTEMS[0]);
+        assert_eq!(of(Sizes { mass: 1e9 * steel.mass, ..steel }), Units::Guessed(Vec::new()));
+        assert_eq!(of(Sizes { ratio: 1e9 * steel.ratio, ..steel }), Units::Guessed(Vec::new()));
+    }
+
+    #[test]
+    fn a_line_or_a_plane_has_no_density() {
+        let frame = component((2.1e11, 7850.0), 1e-2, NodeKind::Rotations, &SYSTEMS[0]);
+        for extents in [[1.0, 0.0, 0.0], [1.0, 0.4, 0.0], [1.0, 0.4, 1e-3]] {
+            assert_eq!(of(Sizes { extents, ..frame }), Units::NoVolume);
+        }
+        let sheet = Sizes { extents: [1.0, 0.4, 1e-3], nodes: NodeKind::Translations, ..frame };
+        assert!(matches!(of(sheet), Units::Guessed(_)), "the nodes of solids are those of its surface");
     }
 }

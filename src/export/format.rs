@@ -11,6 +11,9 @@ pub trait Format: std::fmt::Debug + Sync {
     /// What `--to` calls it.
     fn name(&self) -> &'static str;
 
+    /// Endings of all files that an export of it may have: a file of such a name that is not part of one looks as if it were.
+    fn endings(&self) -> &'static [&'static str];
+
     /// Its files, complete, in the order in which they get their names.
     ///
     /// # Errors

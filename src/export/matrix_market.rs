@@ -28,6 +28,10 @@ impl Format for MatrixMarket {
         "matrix-market"
     }
 
+    fn endings(&self) -> &'static [&'static str] {
+        &ENDINGS
+    }
+
     fn files(&self, superelement: &Superelement, names: &Names) -> Result<Vec<ExportedFile>> {
         let file = ExportedFile::text;
         let nodes = &superelement.metadata().interface_nodes;
@@ -99,6 +103,31 @@ impl Format for MatrixMarket {
         Some(files)
     }
 }
+
+/// Endings of all its files.
+const ENDINGS: [&str; 21] = [
+    "stiffness.mtx",
+    "mass.mtx",
+    "damping.mtx",
+    "gravity.mtx",
+    "loads.mtx",
+    "recovery.mtx",
+    "quantities.mtx",
+    "matrices.mtx",
+    "ltm-acceleration.mtx",
+    "net-ltm-acceleration.mtx",
+    "ltm-velocity.mtx",
+    "net-ltm-velocity.mtx",
+    "ltm-displacement.mtx",
+    "net-ltm-displacement.mtx",
+    "cg-atm.mtx",
+    "recovery-dofs.csv",
+    "quantities.csv",
+    "matrices.csv",
+    "dofs.csv",
+    "nodes.csv",
+    "job.toml",
+];
 
 /// What the job is, for people.
 const JOB: &str = "a job that reduces it again";

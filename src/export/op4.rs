@@ -26,6 +26,10 @@ impl Format for Op4 {
         "op4"
     }
 
+    fn endings(&self) -> &'static [&'static str] {
+        &["op4"]
+    }
+
     fn files(&self, superelement: &Superelement, _: &Names) -> Result<Vec<ExportedFile>> {
         let matrices = matrices(superelement)?;
         let text: String = matrices.iter().map(text).collect();

@@ -22,6 +22,10 @@ impl Format for Op4Binary {
         "op4-binary"
     }
 
+    fn endings(&self) -> &'static [&'static str] {
+        &["op4"]
+    }
+
     fn files(&self, superelement: &Superelement, _: &Names) -> Result<Vec<ExportedFile>> {
         let matrices = matrices(superelement)?;
         let bytes = matrices.iter().flat_map(bytes).collect();

@@ -7,7 +7,7 @@ use super::gathering::{Gathered, Gathering};
 use super::written::{MAX_DECIMAL_DIGITS, Written};
 use super::{MatrixInput, MatrixRole};
 use crate::error::{Error, Result};
-use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES, Triplets};
+use crate::sparse::{Declared, ENTRY_BYTES, Given, ROW_BYTES, TRIPLET_BYTES, Triplets};
 
 /// Order up to which a matrix may be empty; its row pointers take 8 MiB.
 const FREE_ORDER: u64 = 1 << 20;
@@ -37,12 +37,14 @@ pub(super) fn assembled(found: Found, source: &MatrixSource<'_>, claim: &Claim<'
     let (path, n, declared) = (source.file.as_path(), found.n, found.declared);
     let Gathered { triplets, n_merged, most_merged, digits } = found.entries;
     check_emptiness(source, n, triplets.len())?;
-    let assembled = if source.triangle.is_some() { Declared::General } else { declared };
+    let assembled = if source.triangle.is_some() { Declared::OneHolds } else { declared };
     let digits = source.stated_digits.map_or_else(|| digits.with(found.written), Digits::stated);
     // Needed for sums of numbers of few digits alone.
     let most_alike = (digits.significant <= MAX_DECIMAL_DIGITS && n_merged == 0).then(|| most_alike(&triplets));
     let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
-    notes.mirrored &= declared == Declared::General;
+    if declared != Declared::General {
+        notes.given = Given::Whole;
+    }
     notes.n_duplicates += n_merged;
     notes.most_repeated += most_merged;
     claim.set(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * u64::from(n))?;
@@ -71,8 +73,6 @@ pub(super) struct Collector<'a> {
     block: Triplets,
     claim: Claim<'a>,
     bytes_of_entry: u64,
-    /// Whether an entry on either side of the diagonal stands for both where no pair of rows is given twice.
-    is_once_enough: bool,
 }
 
 impl<'a> Collector<'a> {
@@ -80,7 +80,7 @@ impl<'a> Collector<'a> {
     pub(super) fn new(source: &MatrixSource<'a>, declared: Declared) -> Self {
         let claim = source.allowance.claim(&source.file);
         let bytes_of_entry = bytes_of_entry(declared);
-        Self { gathering: Gathering::new(), block: Triplets::default(), claim, bytes_of_entry, is_once_enough: false }
+        Self { gathering: Gathering::new(), block: Triplets::default(), claim, bytes_of_entry }
     }
 
     /// Takes the next entry: row, column, value, zero-based.
@@ -97,14 +97,12 @@ impl<'a> Collector<'a> {
         self.gathering.n_entries() + self.block.len() as u64
     }
 
-    /// The entries with their rows and columns numbered anew. Where every pair of rows is given once, in whichever order, all entries lie
-    /// on one side of the diagonal afterwards, unless the matrix is declared whole.
-    pub(super) fn renumbered(mut self, number: &[u32], declared: Declared) -> Self {
+    /// The entries with their rows and columns numbered anew.
+    pub(super) fn renumbered(mut self, number: &[u32]) -> Self {
         self.gathering.renumber(number);
         for index in self.block.rows.iter_mut().chain(&mut self.block.cols) {
             *index = number[*index as usize];
         }
-        self.is_once_enough = declared != Declared::Whole;
         self
     }
 
@@ -125,12 +123,8 @@ impl<'a> Collector<'a> {
         digest: String,
     ) -> Result<MatrixInput> {
         self.close_block()?;
-        let Self { gathering, claim, is_once_enough, .. } = self;
-        let mut entries = gathering.all();
-        if is_once_enough {
-            entries.triplets.fold_where_given_once();
-        }
-        let found = Found { n, declared, entries, written: None, digest };
+        let Self { gathering, claim, .. } = self;
+        let found = Found { n, declared, entries: gathering.all(), written: None, digest };
         assembled(found, source, &claim)
     }
 }

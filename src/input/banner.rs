@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::MatrixRole;
+use super::fortran::Values;
 use crate::error::{Error, Result};
 use crate::sparse::{Declared, MAX_ORDER};
 
@@ -17,6 +18,8 @@ pub(super) enum Head {
         n_entries: u64,
         /// What the entries stand for.
         declared: Declared,
+        /// What their values are.
+        values: Values,
     },
     /// The file starts with lines of numbers.
     Headerless {
@@ -32,7 +35,7 @@ pub(super) struct HeadReader<'a> {
     path: &'a Path,
     role: MatrixRole,
     n_lines: u64,
-    banner: Option<Declared>,
+    banner: Option<(Declared, Values)>,
 }
 
 impl<'a> HeadReader<'a> {
@@ -53,7 +56,7 @@ impl<'a> HeadReader<'a> {
             let trimmed = line.trim_ascii();
             let head = match self.banner {
                 _ if trimmed.is_empty() => None,
-                Some(declared) => self.size_line(trimmed, declared)?,
+                Some(banner) => self.size_line(trimmed, banner)?,
                 // Bare triplets say neither their order nor what they are of a further matrix.
                 None if trimmed[0].is_ascii_digit() && self.role == MatrixRole::Further => {
                     let (path, line) = (self.path.to_owned(), self.n_lines + 1);
@@ -87,7 +90,7 @@ impl<'a> HeadReader<'a> {
     }
 
     /// A banner, or `None` for a comment.
-    fn banner_line(&self, line: &[u8]) -> Result<Option<Declared>> {
+    fn banner_line(&self, line: &[u8]) -> Result<Option<(Declared, Values)>> {
         let text = String::from_utf8_lossy(line).to_ascii_lowercase();
         let is_banner = text.starts_with("%%") || text.starts_with("%matrixmarket");
         if !is_banner && is_comment(line) {
@@ -107,15 +110,16 @@ impl<'a> HeadReader<'a> {
         if let Some((found, _)) = supported.into_iter().find(|(found, known)| !known.contains(found)) {
             return Err(Error::MatrixFlavour { path, line, found: excerpt(found.as_bytes()) });
         }
-        Ok(Some(match (symmetry, self.role) {
+        let declared = match (symmetry, self.role) {
             ("symmetric", _) => Declared::Symmetric,
             ("skew-symmetric", _) => Declared::Skew,
             (_, role) => role.undeclared(),
-        }))
+        };
+        Ok(Some((declared, if field == "integer" { Values::Whole } else { Values::Real })))
     }
 
     /// The size line, or `None` for a comment.
-    fn size_line(&self, text: &[u8], declared: Declared) -> Result<Option<Head>> {
+    fn size_line(&self, text: &[u8], (declared, values): (Declared, Values)) -> Result<Option<Head>> {
         if is_comment(text) {
             return Ok(None);
         }
@@ -124,7 +128,7 @@ impl<'a> HeadReader<'a> {
             return Err(Error::MatrixSizeLine { path: self.path.to_owned(), line, found: excerpt(text) });
         };
         let n = square_order(self.path, line, rows, cols)?;
-        Ok(Some(Head::Coordinate { n, n_entries, declared }))
+        Ok(Some(Head::Coordinate { n, n_entries, declared, values }))
     }
 }
 

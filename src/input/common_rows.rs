@@ -8,7 +8,7 @@ use super::row_label::RowLabel;
 use super::{InputNote, MatrixInput};
 use crate::dofs::{Direction, DofMap};
 use crate::error::{Error, Result};
-use crate::sparse::{RowStorage, SparseMatrix, filled};
+use crate::sparse::{Given, RowStorage, SparseMatrix, filled};
 
 /// What each row of the files is; unknown for rows of which neither matrices nor a dof map say so.
 #[derive(Clone, Debug, Default)]
@@ -140,8 +140,8 @@ pub(super) fn take_notes(matrix: ReadMatrix, notes: &mut Vec<InputNote>) -> (Mat
     if input.notes.n_duplicates > 0 {
         notes.push(InputNote::Duplicates { path: input.path.clone(), count: input.notes.n_duplicates });
     }
-    if input.notes.mirrored {
-        notes.push(InputNote::Mirrored { path: input.path.clone() });
+    if input.notes.given != Given::Whole {
+        notes.push(InputNote::Mirrored { path: input.path.clone(), given: input.notes.given });
     }
     (input, order)
 }

@@ -53,6 +53,12 @@ impl Compressed {
     /// The number of rows of the matrix of this name, once shape, lengths and pointers are certain to fit together.
     pub(super) fn check(&self, path: &Path, matrix: &str) -> Result<usize> {
         let n = order(path, matrix, self.shape)? as usize;
+        self.check_parts(path, n)?;
+        Ok(n)
+    }
+
+    /// Makes sure that lengths and pointers fit together, for so many rows, or columns where those are compressed.
+    pub(super) fn check_parts(&self, path: &Path, n: usize) -> Result<()> {
         if self.pointers.len() != n + 1 {
             let expected = format!("{} values, one more than the {n} rows or columns", n + 1);
             return Err(self.wrong_length(path, 0, self.pointers.len(), expected));
@@ -61,8 +67,7 @@ impl Compressed {
             let expected = format!("{} values, as many as {}", self.values.len(), self.names[2]);
             return Err(self.wrong_length(path, 1, self.indices.len(), expected));
         }
-        self.check_pointers(path)?;
-        Ok(n)
+        self.check_pointers(path)
     }
 
     /// The matrix of this name, of entries that are declared, with values stored in so many digits at most.
@@ -87,14 +92,17 @@ impl Compressed {
 
     /// The entries; indices and values are checked on the way.
     pub(super) fn into_triplets(self, path: &Path) -> Result<Triplets> {
-        let n = self.pointers.len().saturating_sub(1);
+        let n = match self.major {
+            Major::Rows => self.shape[1],
+            Major::Columns => self.shape[0],
+        };
         let majors = majors(&self.pointers);
         let minors = self
             .indices
             .iter()
             .enumerate()
             .map(|(position, &index)| match u32::try_from(index) {
-                Ok(minor) if (minor as usize) < n => Ok(minor),
+                Ok(minor) if u64::from(minor) < n => Ok(minor),
                 _ => Err(Error::MatrixIndex {
                     path: path.to_owned(),
                     array: self.names[1].clone(),

@@ -152,6 +152,12 @@ pub fn digits_of(values: &[f64]) -> Digits {
     digits_of_sample(spread(values.len()).map(|at| values[at]))
 }
 
+/// [`digits_of`] the values of columns that one program wrote: a column by itself may have too few different values to tell.
+pub(super) fn digits_of_columns(columns: &[Vec<f64>]) -> Digits {
+    let n = columns.first().map_or(0, Vec::len);
+    digits_of_sample(spread(n * columns.len()).map(|at| columns[at / n][at % n]))
+}
+
 /// [`digits_of`] the values of entries in blocks.
 pub(super) fn digits_of_blocks(entries: &TripletBlocks) -> Digits {
     let mut blocks = entries.blocks.iter();

@@ -22,7 +22,7 @@ use super::row_label::RowLabel;
 use super::unsupported_format::begins_as_bulk;
 use crate::error::{Error, Result};
 use crate::job::Layout;
-use crate::sparse::Declared;
+use crate::sparse::{Declared, Given};
 
 const FORMAT: &str = "DMIG";
 /// Fields of a column before its entries.
@@ -144,7 +144,9 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
         return Err(wrong(path, head.line, format!("{} without entries", head.name), "its columns"));
     }
     let mut read = entries.into_matrix(source, declared, (cards.digest()?, LastLine::Terminated))?;
-    read.input.notes.mirrored &= head.form != 6;
+    if head.form == 6 {
+        read.input.notes.given = Given::Whole;
+    }
     Ok(read)
 }
 

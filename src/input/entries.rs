@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::banner::{excerpt, is_comment};
 use super::blocks::count_lines;
-use super::fortran::real;
+use super::fortran::{Values, real};
 use crate::error::Error;
 use crate::sparse::Triplets;
 
@@ -34,10 +34,10 @@ enum What {
 }
 
 /// Parses whole lines of a matrix of order n, at most `max_entries` of them.
-pub(super) fn parse_entries(text: &[u8], n: u32, max_entries: u64) -> Result<Entries, Fault> {
+pub(super) fn parse_entries(text: &[u8], (n, values): (u32, Values), max_entries: u64) -> Result<Entries, Fault> {
     // Blocks of entries stay as they are: none takes more room than it has lines.
     let mut triplets = Triplets::with_capacity(count_lines(text) as usize + 1);
-    let mut cursor = Cursor { text, at: 0 };
+    let mut cursor = Cursor { text, at: 0, values };
     let mut line = 0;
     loop {
         cursor.skip_blanks();
@@ -79,6 +79,7 @@ impl Fault {
 struct Cursor<'a> {
     text: &'a [u8],
     at: usize,
+    values: Values,
 }
 
 impl<'a> Cursor<'a> {
@@ -110,6 +111,11 @@ impl<'a> Cursor<'a> {
         self.skip_blanks();
         let start = self.at;
         let value = self.value()?;
+        if self.values == Values::Whole && Values::Whole.of_field(&self.text[start..self.at]).is_none() {
+            self.at = start;
+            let expected = self.values.expected();
+            return Err(What::Field { field: "value", found: self.found(), expected });
+        }
         if !value.is_finite() {
             let found = excerpt(&self.text[start..self.at]);
             return Err(What::NonFinite { row: u64::from(row) + 1, col: u64::from(col) + 1, found });

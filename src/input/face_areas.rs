@@ -22,23 +22,38 @@ const GAUSS: [[f64; 2]; 4] = [
 
 /// The share of each node of a face, in the order of [`Face::nodes`], in its area vector, outwards; `position` says where a node is.
 pub fn area_vectors(face: &Face, position: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 3]> {
-    let nodes: Vec<[f64; 3]> = face.nodes().map(position).collect();
-    let mut shares = vec![[0.0; 3]; nodes.len()];
-    for [xi, w_xi] in GAUSS {
-        for [eta, w_eta] in GAUSS {
-            let (shapes, weight) = shapes_at(face, [xi, eta]);
-            let along = |part: usize| -> [f64; 3] {
-                let terms = nodes.iter().zip(&shapes);
-                terms.fold([0.0; 3], |sum, (x, shape)| std::array::from_fn(|axis| sum[axis] + shape[part] * x[axis]))
-            };
-            let normal = cross(&along(1), &along(2));
-            for (share, shape) in shares.iter_mut().zip(&shapes) {
-                let size = weight * w_xi * w_eta * shape[0];
-                share.iter_mut().zip(normal).for_each(|(sum, part)| *sum += size * part);
-            }
+    let mut shares = vec![[0.0; 3]; face.nodes().count()];
+    for Point { shapes, area_vector, .. } in points(face, position) {
+        for (share, shape) in shares.iter_mut().zip(&shapes) {
+            share.iter_mut().zip(area_vector).for_each(|(sum, part)| *sum += shape[0] * part);
         }
     }
     shares
+}
+
+/// A point of the rule on a face.
+pub(super) struct Point {
+    /// Shape functions of the nodes of the face there.
+    pub(super) shapes: Vec<Shape>,
+    /// x.
+    pub(super) at: [f64; 3],
+    /// x_ξ × x_η dξ dη.
+    pub(super) area_vector: [f64; 3],
+}
+
+/// The points of the rule on a face; `position` says where a node is.
+pub(super) fn points(face: &Face, position: impl Fn(usize) -> [f64; 3]) -> Vec<Point> {
+    let nodes: Vec<[f64; 3]> = face.nodes().map(position).collect();
+    let of_point = |[xi, w_xi]: [f64; 2], [eta, w_eta]: [f64; 2]| {
+        let (shapes, weight) = shapes_at(face, [xi, eta]);
+        let along = |part: usize| -> [f64; 3] {
+            let terms = nodes.iter().zip(&shapes);
+            terms.fold([0.0; 3], |sum, (x, shape)| std::array::from_fn(|axis| sum[axis] + shape[part] * x[axis]))
+        };
+        let (at, normal) = (along(0), cross(&along(1), &along(2)));
+        Point { at, area_vector: normal.map(|part| weight * w_xi * w_eta * part), shapes }
+    };
+    GAUSS.into_iter().flat_map(|xi| GAUSS.map(|eta| of_point(xi, eta))).collect()
 }
 
 /// Shape functions at a point of the square from −1 to 1, and the area of the face's own square or triangle there.

@@ -117,7 +117,7 @@ impl<'a> Gathered<'a> {
         let owner = || sorted(nodes[..cell.n_corners()].to_vec());
         let places = |nodes: &[usize]| nodes.iter().map(|node| self.place(patch, *node)).collect::<Vec<_>>();
         let (outline, others) = (places(&corners), face.middles.iter().copied().chain(face.centre).collect());
-        let moments = moments(&places(&face.corners), &places(&face.middles));
+        let moments = moments(&face, |node| self.place(patch, node));
         let face = self.as_seen_from_outside((patch, cell), nodes, face);
         if let Some(found) = self.faces.get_mut(&(patch, key.clone())) {
             match &found.volumes {
@@ -229,9 +229,9 @@ impl<'a> Gathered<'a> {
         let mut areas = vec![0.0; patch.nodes.len()];
         for found in found {
             sum = sum.plus(found.moments);
-            let shares = area::shares(found.corners.len(), found.others.len());
-            for (node, share) in found.corners.iter().chain(&found.others).zip(shares) {
-                areas[place(*node)] += share * found.moments.area;
+            let shares = area::shares(&found.face, |node| self.place(number, node));
+            for (node, share) in found.face.nodes().zip(shares) {
+                areas[place(node)] += share;
             }
         }
         let faces = found.iter().map(|found| found.face.renumbered(place)).collect();

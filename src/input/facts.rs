@@ -59,6 +59,14 @@ impl InputFacts {
         }
     }
 
+    /// These facts with one remark more.
+    #[must_use]
+    pub fn remarking(&self, remark: String) -> Self {
+        let mut facts = self.clone();
+        facts.notes.push(remark);
+        facts
+    }
+
     /// These facts with the digests of the files of quantities, where there are some.
     #[must_use]
     pub fn with_quantities(mut self, rows: Option<&QuantityRows>) -> Self {

@@ -4,12 +4,14 @@
 
 use std::path::Path;
 
-use super::digits::{Digits, digits_of};
+use super::digits::digits_of_columns;
 use super::file_start::FileStart;
 use super::hdf5_format;
 use super::member::split_member;
 use super::mode_format::{ModeSource, ReadModes};
+use super::mode_rounding::ModeRounding;
 use super::modes_file::{ModeColumns, mode_columns};
+use super::op4;
 use super::{Allowance, ModeValues};
 use crate::error::{Error, Result};
 use crate::regular_file::{digest, unchanged};
@@ -23,10 +25,21 @@ pub struct ForeignModes {
     pub values: Option<ModeValues>,
     /// What wrote the file, where it tells.
     pub program: Option<&'static str>,
-    /// What the numbers of the shapes may be off by, relative to each.
-    pub rounding: f64,
+    /// What the numbers of the shapes may be off by.
+    pub rounding: ModeRounding,
+    /// Whether modes may be in the rows of what was read as columns.
+    pub orientation: Orientation,
     /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.
     pub digest: String,
+}
+
+/// Whether the extents of a file tell which of its numbers are one mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// They do, or the format does.
+    Known,
+    /// A dataset of as many rows as columns: modes may be its columns or its rows.
+    Square,
 }
 
 /// A format of modes with their frequencies.
@@ -37,10 +50,10 @@ struct ModeFormat {
 }
 
 /// The formats, those that know more than shapes first; what none of them takes is a matrix of numbers.
-const FORMATS: [ModeFormat; 1] = [ModeFormat {
-    is_one: |source, start| start.is_hdf5() && source.member.is_none(),
-    read: hdf5_format::foreign_modes,
-}];
+const FORMATS: [ModeFormat; 2] = [
+    ModeFormat { is_one: |source, start| start.is_hdf5() && source.member.is_none(), read: hdf5_format::foreign_modes },
+    ModeFormat { is_one: |_, start| op4::begins(start), read: op4::modes },
+];
 
 /// Reads the modes of another program, for matrices of `n_rows` rows in their files.
 ///
@@ -63,11 +76,8 @@ pub fn foreign_modes(path: &Path, n_rows: usize, allowance: &Allowance) -> Resul
     if let Some(values) = values.as_ref().filter(|values| values.numbers.len() != n_modes) {
         return Err(Error::ValuesCount { path: Some(source.file), found: values.numbers.len() as u64, n_modes });
     }
-    Ok(ForeignModes { rounding: rounding_of(&columns), columns, values, program, digest })
-}
-
-/// Half a unit of the last digit that the numbers carry, relative to each.
-fn rounding_of(columns: &[Vec<f64>]) -> f64 {
-    let of_column = |column: &Vec<f64>| Digits { decimals: None, ..digits_of(column) }.half_a_unit()[0];
-    columns.iter().map(of_column).fold(f64::INFINITY, f64::min)
+    let is_square = start.is_hdf5() && program.is_none() && n_modes == n_rows;
+    let orientation = if is_square { Orientation::Square } else { Orientation::Known };
+    let rounding = ModeRounding::of(digits_of_columns(&columns));
+    Ok(ForeignModes { rounding, columns, values, program, orientation, digest })
 }

@@ -77,6 +77,14 @@ pub(super) trait NodeFormat: Format {
         Vec::new()
     }
 
+    /// BLAKE3 of the files that a file refers to now, as a reading records it in [`ReadNodes::data_digest`].
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    fn data_digest(&self, _path: &Path) -> Result<Option<String>> {
+        Ok(None)
+    }
+
     /// Whether a file of it may have cells.
     fn has_cells(&self) -> bool {
         false

@@ -22,6 +22,43 @@ fn marked(field: &[u8]) -> Option<f64> {
     fast_float2::parse(&number).ok()
 }
 
+/// What the values of a file are declared to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Values {
+    Real,
+    /// Whole numbers, each of which has to be kept as it is.
+    Whole,
+}
+
+impl Values {
+    /// What a message expects of a value.
+    pub(super) fn expected(self) -> &'static str {
+        match self {
+            Self::Real => "a number",
+            Self::Whole => "a number, which a double equals where it is whole, as it does all up to 2^53",
+        }
+    }
+
+    /// The value of a field; none where it is no number, or is declared whole and no double equals it.
+    pub(super) fn of_field(self, field: &[u8]) -> Option<f64> {
+        let value = real(field)?;
+        (self == Self::Real || is_kept(field, value)).then_some(value)
+    }
+}
+
+/// Whether a double is the number of its field, or that has a point or an exponent and is not whole as it stands there.
+fn is_kept(field: &[u8], value: f64) -> bool {
+    /// Up to here every whole number is a double.
+    const ALL_WHOLE: f64 = 9_007_199_254_740_992.0;
+    let field = field.trim_ascii();
+    let digits = field.strip_prefix(b"-").or_else(|| field.strip_prefix(b"+")).unwrap_or(field);
+    if value.abs() < ALL_WHOLE || !digits.iter().all(u8::is_ascii_digit) {
+        return true;
+    }
+    let size: Option<u128> = std::str::from_utf8(digits).ok().and_then(|digits| digits.parse().ok());
+    size.is_some_and(|size| value.abs() as u128 == size)
+}
+
 /// A whole number.
 pub(super) fn whole(field: &[u8]) -> Option<i64> {
     std::str::from_utf8(field.trim_ascii()).ok()?.parse().ok()
@@ -80,6 +117,24 @@ mod tests {
         }
         for text in ["", "-", "1.5-", "a", "1 2", "1-2-3"] {
             assert_eq!(real(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_are_kept_or_refused() {
+        let at_most = |text: &str| Values::Whole.of_field(text.as_bytes());
+        for (text, value) in [
+            ("9007199254740992", 9_007_199_254_740_992.0),
+            ("-9007199254740994", -9_007_199_254_740_994.0),
+            ("+36893488147419103232", 36_893_488_147_419_103_232.0),
+            ("9007199254740993.0", 9_007_199_254_740_992.0),
+            ("7", 7.0),
+        ] {
+            assert_eq!(at_most(text), Some(value), "{text}");
+        }
+        for text in ["9007199254740993", "-9007199254740993", "36893488147419103233", &"9".repeat(50), "x"] {
+            assert_eq!(at_most(text), None, "{text}");
+            assert_eq!(Values::Real.of_field(text.as_bytes()).is_some(), text != "x", "{text}");
         }
     }
 

@@ -15,7 +15,7 @@ use super::banner::excerpt;
 use super::compressed::{Compressed, Major};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
-use super::fortran::{Fields, real, whole};
+use super::fortran::{Fields, Values, whole};
 use super::lines::Lines;
 use crate::error::{Error, Result};
 use crate::job::Layout;
@@ -64,7 +64,8 @@ impl MatrixFormat for HarwellBoeing {
             read(&mut lines, of_pointers, n_pointers, |field| Some(whole(field)?.saturating_sub(1)), "a pointer")?;
         let indices =
             read(&mut lines, of_indices, kind.n_entries, |field| Some(whole(field)?.saturating_sub(1)), "a row")?;
-        let values = read(&mut lines, of_values, kind.n_entries, real, "a number")?;
+        let kept = kind.values();
+        let values = read(&mut lines, of_values, kind.n_entries, |field| kept.of_field(field), kept.expected())?;
         // What follows may be right-hand sides; a packed file shows at its end whether it is whole.
         lines.digest()?;
         let names = ["pointers (less 1)", "rows (less 1)", "values"].map(str::to_owned);
@@ -103,6 +104,11 @@ impl Kind {
         let size = |at: usize| sizes.get(at).and_then(|size| u64::try_from(*size).ok());
         let (n_rows, n_columns, n_entries) = (size(0)?, size(1)?, size(2)?);
         is_known.then_some(Self { letters, n_rows, n_columns, n_entries })
+    }
+
+    /// What its values are.
+    fn values(&self) -> Values {
+        if self.letters[0] == b'I' { Values::Whole } else { Values::Real }
     }
 
     /// What its entries stand for.

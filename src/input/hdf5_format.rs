@@ -136,6 +136,10 @@ impl NodeFormat for Hdf5Mesh {
         hdf5::referenced_files(path)
     }
 
+    fn data_digest(&self, path: &Path) -> Result<Option<String>> {
+        hdf5::data_digest(path)
+    }
+
     fn has_cells(&self) -> bool {
         true
     }

@@ -59,8 +59,7 @@ impl<'a> LabelledEntries<'a> {
         Ok(number)
     }
 
-    /// The matrix, its rows in the order of nodes and directions. Where every pair of rows is given once, in whichever order, it stands for
-    /// both.
+    /// The matrix, its rows in the order of nodes and directions.
     ///
     /// # Errors
     /// Those of assembling it.
@@ -75,7 +74,7 @@ impl<'a> LabelledEntries<'a> {
         order.sort_unstable_by_key(|number| labels[*number as usize]);
         let mut rank = vec![0; labels.len()];
         order.iter().zip(0..).for_each(|(number, row)| rank[*number as usize] = row);
-        let entries = entries.renumbered(&rank, declared);
+        let entries = entries.renumbered(&rank);
         let input = entries.into_matrix(source, (labels.len() as u32, declared), digest)?;
         let labels = order.iter().map(|number| labels[*number as usize]).collect();
         Ok(ReadMatrix { input, order: OrderSource::Labels, last_line, labels: Some(labels) })

@@ -45,7 +45,7 @@ pub(super) fn map_and_nodes(
             };
             let (dofs, nodes) = match rebuilt((path, &dofs), (nodes_path, &nodes), allowance)? {
                 Some(rebuilt) => {
-                    digests.extend(rebuilt.digest.map(|digest| ("dofs_data", digest)));
+                    digests.insert("dofs_data", rebuilt.digest);
                     notes.extend(rebuilt.notes);
                     (rebuilt.dofs, rebuilt.nodes)
                 }

@@ -5,7 +5,7 @@ use super::assembled::Collector;
 use super::banner::{excerpt, is_comment, square_order};
 use super::file_start::FileStart;
 use super::format::{MatrixSource, ReadMatrix};
-use super::fortran::{real, whole};
+use super::fortran::{Values, whole};
 use super::lines::Lines;
 use crate::error::{Error, Result};
 use crate::sparse::Declared;
@@ -25,7 +25,7 @@ pub(super) fn begins(start: &FileStart<'_>) -> bool {
 pub(super) fn read(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
     let mut lines = Lines::open(&source.file)?;
     lines.advance()?;
-    let declared = declared(&lines, source)?;
+    let (declared, values) = declared(&lines, source)?;
     advance(&mut lines)?;
     let sizes: Vec<Option<i64>> = fields(lines.line()).map(whole).collect();
     let &[Some(rows), Some(columns)] = sizes.as_slice() else {
@@ -44,7 +44,7 @@ pub(super) fn read(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
                 return Err(Error::EntriesSurplus { path, line, declared: n_read });
             };
             let found = || excerpt(field);
-            match real(field) {
+            match values.of_field(field) {
                 Some(value) if value.is_finite() => {
                     n_read += 1;
                     if value != 0.0 {
@@ -56,7 +56,8 @@ pub(super) fn read(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
                     return Err(Error::NonFinite { path, line, row, col, found: found() });
                 }
                 None => {
-                    return Err(Error::EntryField { path, line, field: "value", found: found(), expected: "a number" });
+                    let expected = values.expected();
+                    return Err(Error::EntryField { path, line, field: "value", found: found(), expected });
                 }
             }
         }
@@ -66,7 +67,7 @@ pub(super) fn read(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
         let declared = match declared {
             Declared::Symmetric => own * (own + 1) / 2,
             Declared::Skew => own * (own - 1) / 2,
-            Declared::General | Declared::Whole => own * own,
+            Declared::General | Declared::OneHolds | Declared::Whole => own * own,
         };
         return Err(Error::EntryCount { path: source.file.clone(), declared, found: n_read });
     }
@@ -74,20 +75,24 @@ pub(super) fn read(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
 }
 
 /// What the banner says.
-fn declared(lines: &Lines<'_>, source: &MatrixSource<'_>) -> Result<Declared> {
+fn declared(lines: &Lines<'_>, source: &MatrixSource<'_>) -> Result<(Declared, Values)> {
     let text = String::from_utf8_lossy(lines.line()).to_ascii_lowercase();
     let words: Vec<&str> = text.split_ascii_whitespace().skip(3).collect();
     let flavour = |found: &str| {
         let found = excerpt(found.as_bytes());
         Err(Error::MatrixFlavour { path: lines.path(), line: lines.number(), found })
     };
-    match words[..] {
-        [field, _] if !matches!(field, "real" | "integer" | "double") => flavour(field),
-        [_, "symmetric"] => Ok(Declared::Symmetric),
-        [_, "skew-symmetric"] if source.role.takes_any() => Ok(Declared::Skew),
-        [_, "general"] => Ok(source.role.undeclared()),
-        [_, symmetry] => flavour(symmetry),
-        _ => flavour(&text),
+    let [field, symmetry] = words[..] else { return flavour(&text) };
+    let values = match field {
+        "real" | "double" => Values::Real,
+        "integer" => Values::Whole,
+        _ => return flavour(field),
+    };
+    match symmetry {
+        "symmetric" => Ok((Declared::Symmetric, values)),
+        "skew-symmetric" if source.role.takes_any() => Ok((Declared::Skew, values)),
+        "general" => Ok((source.role.undeclared(), values)),
+        _ => flavour(symmetry),
     }
 }
 
@@ -96,7 +101,7 @@ fn places(n: u32, declared: Declared) -> impl Iterator<Item = (u32, u32)> {
     let first = move |col: u32| match declared {
         Declared::Symmetric => col,
         Declared::Skew => col + 1,
-        Declared::General | Declared::Whole => 0,
+        Declared::General | Declared::OneHolds | Declared::Whole => 0,
     };
     (0..n).flat_map(move |col| (first(col)..n).map(move |row| (row, col)))
 }

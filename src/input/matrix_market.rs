@@ -14,6 +14,7 @@ use super::blocks::{BLOCK_BYTES, for_each_batch};
 use super::entries::{Entries, Fault, parse_entries};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, OrderSource, ReadMatrix, Sureness};
+use super::fortran::Values;
 use super::gathering::Gathering;
 use super::market_array;
 use super::written::{Written, written};
@@ -86,7 +87,7 @@ fn read_in_blocks(source: &MatrixSource<'_>, block_bytes: usize) -> Result<ReadM
     let Reading { entries, claim, written, .. } = reading;
     let n_read = entries.n_entries();
     let (n, declared, order, gathered) = match head {
-        Head::Coordinate { n, n_entries, declared } => {
+        Head::Coordinate { n, n_entries, declared, .. } => {
             check_count(path, n_entries, n_read)?;
             (n, declared, OrderSource::SizeLine, entries.all())
         }
@@ -138,18 +139,18 @@ impl Reading<'_> {
         if self.entries.n_entries() == 0 {
             self.written = texts.first().and_then(|text| written(text));
         }
-        let (n, declared) = match self.head {
+        let (n, values, declared) = match self.head {
             None => return Ok(()),
-            Some(Head::Coordinate { n, n_entries, .. }) => (n, n_entries),
-            Some(Head::Headerless { .. }) => (MAX_ORDER as u32, u64::MAX),
+            Some(Head::Coordinate { n, n_entries, values, .. }) => (n, values, n_entries),
+            Some(Head::Headerless { .. }) => (MAX_ORDER as u32, Values::Real, u64::MAX),
         };
         let parsed: Vec<Result<Entries, Fault>> =
-            texts.par_iter().map(|text| parse_entries(text, n, u64::MAX)).collect();
+            texts.par_iter().map(|text| parse_entries(text, (n, values), u64::MAX)).collect();
         for (text, entries) in texts.into_iter().zip(parsed) {
             let left = declared - self.entries.n_entries();
             let entries = entries.and_then(|entries| {
                 // Parsed again to find the line of the first one too many.
-                if entries.triplets.len() as u64 > left { parse_entries(text, n, left) } else { Ok(entries) }
+                if entries.triplets.len() as u64 > left { parse_entries(text, (n, values), left) } else { Ok(entries) }
             });
             let entries = entries.map_err(|fault| fault.into_error(self.path, self.n_lines, n, declared))?;
             let mut triplets = entries.triplets;

@@ -6,7 +6,6 @@ use super::Allowance;
 use super::value_unit::ValueUnit;
 
 /// A file of modes.
-#[cfg_attr(not(feature = "hdf5"), expect(dead_code, reason = "datasets alone are read within an allowance"))]
 pub(super) struct ModeSource<'a> {
     pub(super) file: PathBuf,
     /// The place in the file that was named.

@@ -12,6 +12,7 @@ use super::decimal::Decimal;
 use super::file_start::FileStart;
 use super::fortran::real;
 use super::member::split_member;
+use super::mode_rounding::ModeRounding;
 use super::modes_file::mode_columns;
 use super::npy_header::is_array;
 use super::source::read_error;
@@ -39,8 +40,8 @@ pub struct ModeValues {
     pub unit: ValueUnit,
     /// One for each mode.
     pub numbers: Vec<f64>,
-    /// Half a unit of the last digit that they are written with, relative to each; rounding of double precision where they have all.
-    pub rounding: f64,
+    /// What they may be off by.
+    pub rounding: ModeRounding,
 }
 
 impl ModeValues {
@@ -65,15 +66,38 @@ impl ModeValues {
         }
         Ok(Self::new(unit, numbers))
     }
+
+    /// What the frequency of a mode may be off by, relative to it: that of an eigenvalue half as much as the number.
+    pub fn rounding_of(&self, mode: usize) -> f64 {
+        let ModeRounding { relative, absolute } = self.rounding;
+        let number = self.numbers[mode].abs();
+        let of_number = relative + if number > 0.0 { absolute / number } else { 0.0 };
+        match self.unit {
+            ValueUnit::Hertz | ValueUnit::RadPerSecond => of_number,
+            ValueUnit::Eigenvalue => 0.5 * of_number,
+        }
+    }
 }
 
-/// Half a unit of the last digit of the number that has the most digits: those with fewer may end in zeros.
-fn rounding_of(numbers: &[f64]) -> f64 {
+/// Half a unit of the last digit of the number that has the most digits: those with fewer may end in zeros. Where more of the numbers
+/// have the most decimals than have the most digits, and two thirds of all have them, they are in fixed point: half a unit of the last
+/// decimal.
+fn rounding_of(numbers: &[f64]) -> ModeRounding {
     /// Digits that are as good as binary.
     const ALL: u32 = 16;
-    let counted = numbers.iter().filter(|value| **value != 0.0);
-    let most = counted.map(|value| Decimal::of(*value).n_digits).max().unwrap_or(ALL);
-    if most < ALL { 0.5 * 10f64.powi(1 - most as i32) } else { f64::EPSILON }
+    let written: Vec<Decimal> =
+        numbers.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value)).collect();
+    let digits = written.iter().map(|decimal| decimal.n_digits).max().unwrap_or(ALL);
+    if digits >= ALL {
+        return ModeRounding { relative: f64::EPSILON, absolute: 0.0 };
+    }
+    let decimals = written.iter().map(|decimal| decimal.n_decimals()).max().unwrap_or(0);
+    let n_full = written.iter().filter(|decimal| decimal.n_decimals() == decimals).count();
+    let n_full_digits = written.iter().filter(|decimal| decimal.n_digits == digits).count();
+    if decimals > 0 && n_full > n_full_digits && 3 * n_full >= 2 * written.len() {
+        return ModeRounding { relative: f64::EPSILON, absolute: 0.5 * 10f64.powi(-decimals) };
+    }
+    ModeRounding { relative: 0.5 * 10f64.powi(1 - digits as i32), absolute: 0.0 }
 }
 
 fn of_file(path: &Path, n_modes: usize, allowance: &Allowance) -> Result<Vec<f64>> {
@@ -151,9 +175,23 @@ mod tests {
 
     #[test]
     fn the_number_with_the_most_digits_tells_the_rounding() {
-        assert_eq!(rounding_of(&[316.37, 871.2]), 0.5e-4);
-        assert_eq!(rounding_of(&[0.1 + 0.2]), f64::EPSILON);
-        assert_eq!(rounding_of(&[]), f64::EPSILON);
+        let relative = |relative: f64| ModeRounding { relative, absolute: 0.0 };
+        assert_eq!(rounding_of(&[316.37, 871.2]), relative(0.5e-4));
+        assert_eq!(rounding_of(&[0.1 + 0.2]), relative(f64::EPSILON));
+        assert_eq!(rounding_of(&[]), relative(f64::EPSILON));
+        // The eigenvalue table of a program that writes five digits.
+        assert_eq!(rounding_of(&[0.0, 250.11, 1265.4, 2.8093e4, 40.293]), relative(0.5e-4));
+    }
+
+    #[test]
+    fn numbers_in_fixed_point_are_off_by_a_decimal() {
+        let values = ModeValues::new(ValueUnit::Hertz, vec![2.3, 12.3, 87.1, 1316.4, 20.0]);
+        assert_eq!(values.rounding, ModeRounding { relative: f64::EPSILON, absolute: 0.05 });
+        assert_eq!(values.rounding_of(1), f64::EPSILON + 0.05 / 12.3);
+        assert_eq!(
+            ModeValues { unit: ValueUnit::Eigenvalue, ..values }.rounding_of(4),
+            0.5 * (f64::EPSILON + 0.05 / 20.0)
+        );
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub(super) fn role_stated_by(path: &str) -> Option<MatrixRole> {
 /// name says so.
 ///
 /// # Errors
-/// [`Error::MatrixAmbiguous`].
+/// [`Error::MatrixAmbiguous`]; [`Error::MatrixNameTwice`] where those that could be meant have one name.
 pub(super) fn of_role(path: &Path, names: &[&str], role: MatrixRole) -> Result<usize> {
     let states = |name: &str| role_stated_by(name) == Some(role);
     let chosen = match names {
@@ -51,6 +51,13 @@ pub(super) fn of_role(path: &Path, names: &[&str], role: MatrixRole) -> Result<u
         _ => None,
     };
     chosen.ok_or_else(|| {
+        let of_role: Vec<&&str> = names.iter().filter(|name| states(name)).collect();
+        if let [first, others @ ..] = &of_role[..]
+            && !others.is_empty()
+            && others.iter().all(|name| name == first)
+        {
+            return twice(path, first, of_role.len());
+        }
         let matrices = names.iter().map(|name| (*name).to_owned()).collect();
         Error::MatrixAmbiguous { path: path.to_owned(), role: role.name(), matrices }
     })
@@ -59,9 +66,13 @@ pub(super) fn of_role(path: &Path, names: &[&str], role: MatrixRole) -> Result<u
 /// The position of the matrix that is wanted: by its name, where one is given, in whatever case; by its role otherwise.
 ///
 /// # Errors
-/// [`Error::MatrixName`]; [`Error::MatrixAmbiguous`].
+/// [`Error::MatrixName`]; [`Error::MatrixNameTwice`]; [`Error::MatrixAmbiguous`].
 pub(super) fn chosen(path: &Path, names: &[&str], wanted: Option<&str>, role: MatrixRole) -> Result<usize> {
     let Some(wanted) = wanted else { return of_role(path, names, role) };
+    let n_exact = names.iter().filter(|name| **name == wanted).count();
+    if n_exact > 1 {
+        return Err(twice(path, wanted, n_exact));
+    }
     let exact = names.iter().position(|name| *name == wanted);
     let in_any_case = || {
         let mut alike = names.iter().enumerate().filter(|(_, name)| name.eq_ignore_ascii_case(wanted));
@@ -71,6 +82,10 @@ pub(super) fn chosen(path: &Path, names: &[&str], wanted: Option<&str>, role: Ma
         let holds = names.iter().map(|name| (*name).to_owned()).collect();
         Error::MatrixName { path: path.to_owned(), name: wanted.to_owned(), holds }
     })
+}
+
+fn twice(path: &Path, name: &str, n: usize) -> Error {
+    Error::MatrixNameTwice { path: path.to_owned(), name: name.to_owned(), n }
 }
 
 #[cfg(test)]
@@ -97,6 +112,9 @@ mod tests {
         assert_eq!(choose(&["KAA", "MAA"], Some("maa"), stiffness), Ok(1));
         assert_eq!(choose(&["k", "K"], Some("K"), stiffness), Ok(1));
         assert_eq!(choose(&["kk", "Kk"], Some("KK"), stiffness), Err("E-NO-SUCH-MATRIX"));
+        assert_eq!(choose(&["KAA", "KAA"], Some("KAA"), stiffness), Err("E-SAME-NAME"));
+        assert_eq!(choose(&["KAA", "MAA", "KAA"], None, stiffness), Err("E-SAME-NAME"));
+        assert_eq!(choose(&["KAA", "MAA", "KAA"], None, MatrixRole::Mass), Ok(1));
         assert_eq!(choose(&["A"], None, stiffness), Ok(0));
         assert_eq!(choose(&["M"], None, stiffness), Err("E-MATRIX-AMBIGUOUS"));
         assert_eq!(choose(&["M"], None, MatrixRole::Conversion), Ok(0));

@@ -4,8 +4,8 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::dofs::Dof;
-use crate::number::counted;
-use crate::sparse::Triangle;
+use crate::number::{count, counted};
+use crate::sparse::{Given, Triangle};
 
 /// A remark on the input that is not an error. Its text is one line for the report.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,10 +18,19 @@ pub enum InputNote {
         /// Entries that repeated an earlier position.
         count: usize,
     },
-    /// One triangle was given without the declaration that it stands for both.
+    /// Each pair of a row and a column was given once, without the declaration that it stands for both.
     Mirrored {
         /// The file of the matrix.
         path: PathBuf,
+        /// One triangle, or pairs in either order.
+        given: Given,
+    },
+    /// Pairs of a row and a column were given in one order only, and stay so.
+    GivenOnce {
+        /// The file of the matrix.
+        path: PathBuf,
+        /// How many pairs.
+        n_once: usize,
     },
     /// One triangle was taken for both on request, and the other differed.
     TriangleTaken {
@@ -159,9 +168,25 @@ impl fmt::Display for InputNote {
                 let entries = counted(*count, "entry repeats", "entries repeat");
                 write!(f, "{}: {entries} a position: what stands at one position was added up", file_name(path))
             }
-            Self::Mirrored { path } => {
-                let why = "it was mirrored, as stiffness and mass are symmetric";
-                write!(f, "{}: only one triangle is given; {why}", file_name(path))
+            Self::Mirrored { path, given } => {
+                let what = match given {
+                    Given::EitherOrder { n_below, n_above } => format!(
+                        "each pair of rows is given once, by {} below the diagonal and {} above it",
+                        counted(*n_below, "entry", "entries"),
+                        count(*n_above as u64)
+                    ),
+                    Given::Whole | Given::OneTriangle => "only one triangle is given".to_owned(),
+                };
+                write!(f, "{}: {what}; it was mirrored, as stiffness and mass are symmetric", file_name(path))
+            }
+            Self::GivenOnce { path, n_once } => {
+                let pairs = counted(*n_once, "pair of rows is", "pairs of rows are");
+                write!(
+                    f,
+                    "{}: {pairs} given in one order only, and no other pair tells the matrix from a symmetric one; what is not \
+                     given stays zero: if one order stands for both, declare the matrix symmetric",
+                    file_name(path)
+                )
             }
             Self::TriangleTaken { path, triangle, n_differing } => {
                 let (kept, other) = match triangle {

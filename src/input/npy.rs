@@ -1,4 +1,4 @@
-//! Modes in arrays of NumPy: real numbers in double precision.
+//! Modes in arrays of NumPy.
 
 use std::io::Read;
 use std::path::Path;
@@ -6,10 +6,12 @@ use std::path::Path;
 use super::allowance::Claim;
 use super::mode_matrix::{NUMBER, checked_count, columns_of, refuse_not_finite};
 use super::npy_header::{Failure, Header};
+use super::numpy_array::stored_as;
+use super::raw_numbers;
 use crate::error::{Error, Result};
 use crate::regular_file;
 
-const EXPECTED: &str = "a NumPy array of float64, little-endian, of one or two dimensions, as numpy.save writes it";
+const EXPECTED: &str = "a NumPy array of real numbers, of one or two dimensions, as numpy.save writes it";
 
 /// The columns of an array of two dimensions; of one dimension, the only one.
 ///
@@ -25,9 +27,9 @@ pub(super) fn columns(path: &Path, n_rows: usize, claim: &Claim<'_>) -> Result<V
         Failure::Found(found) => wrong(found),
         Failure::Read(source) => failed(source),
     })?;
-    if header.descr != "<f8" {
+    let Some(stored) = stored_as(&header.descr) else {
         return Err(wrong(format!("numbers of type '{}'", header.descr)));
-    }
+    };
     let (rows, n_columns) = match header.shape[..] {
         [rows] => (rows, 1),
         [rows, columns] => (rows, columns),
@@ -37,20 +39,21 @@ pub(super) fn columns(path: &Path, n_rows: usize, claim: &Claim<'_>) -> Result<V
         return Err(Error::ModesRows { path: path.to_owned(), found: rows, n: n_rows });
     }
     let n_columns = checked_count(path, n_columns, n_rows)?;
-    let promised = (n_rows as u64).checked_mul(n_columns as u64).and_then(|n| n.checked_mul(NUMBER));
+    let n_numbers = (n_rows as u64).checked_mul(n_columns as u64);
+    let promised = n_numbers.and_then(|n| n.checked_mul(stored.0.size() as u64));
     let there = n_bytes.saturating_sub(header.length);
     if promised != Some(there) {
         return Err(wrong(format!("{there} bytes behind the header of {n_rows} × {n_columns} numbers")));
     }
     // The numbers as they are read and in columns.
-    claim.add(there.saturating_mul(2))?;
-    let mut bytes = Vec::new();
-    file.take(there).read_to_end(&mut bytes).map_err(failed)?;
-    let (numbers, _) = bytes.as_chunks::<8>();
-    let values: Vec<f64> = numbers.iter().map(|number| f64::from_le_bytes(*number)).collect();
-    if values.len() as u64 * NUMBER != there {
-        return Err(Error::Changed { path: path.to_owned() });
-    }
+    let n_numbers = n_numbers.unwrap_or(u64::MAX);
+    claim.add(n_numbers.saturating_mul(2 * NUMBER))?;
+    let values = raw_numbers::reals(&mut file.take(there), stored, n_numbers).map_err(|failure| match failure {
+        raw_numbers::Failure::Cut(_) => Error::Changed { path: path.to_owned() },
+        raw_numbers::Failure::Value(at) => wrong(format!("number {}, which no double equals", at + 1)),
+        raw_numbers::Failure::Read(source) => failed(source),
+        raw_numbers::Failure::Refused(error) => *error,
+    })?;
     let columns = columns_of(&values, [n_rows, n_columns], header.order);
     refuse_not_finite(path, &columns)?;
     Ok(columns)

@@ -147,35 +147,27 @@ impl Reading<'_> {
         let data = self.array("data.npy")?;
         let shape = data.header.shape.clone();
         let Reals { values, digits } = data.reals()?;
-        let size = match shape[..] {
-            [n_blocks, high, wide] if high == wide && high > 0 && n_blocks == indices.len() as u64 => high,
-            _ => {
-                return Err(self.wrong(
-                    "data.npy",
-                    format!("the shape {shape:?}"),
-                    "square blocks, one for each index",
-                ));
-            }
+        let [high, wide] = match shape[..] {
+            [n_blocks, high, wide] if high > 0 && wide > 0 && n_blocks == indices.len() as u64 => [high, wide],
+            _ => return Err(self.wrong("data.npy", format!("the shape {shape:?}"), "blocks, one for each index")),
         };
-        if u64::from(n) % size != 0 {
-            return Err(self.wrong(
-                "data.npy",
-                format!("blocks of {size} rows"),
-                "a divisor of the order of the matrix",
-            ));
+        let order = u64::from(n);
+        if order % high != 0 || order % wide != 0 {
+            let found = format!("blocks of {high} rows and {wide} columns");
+            return Err(self.wrong("data.npy", found, "divisors of the order of the matrix"));
         }
-        let n_rows = (u64::from(n) / size) as u32;
+        let n_blocks = [order / high, order / wide];
         // The blocks as entries of a matrix of blocks: its pointers and indices are checked there.
         let positions = (0..indices.len()).map(|at| at as f64).collect();
         let names = ["indptr.npy", "indices.npy", "data.npy"].map(str::to_owned);
-        let of_blocks = Compressed::new(Major::Rows, [n_rows.into(); 2], pointers, indices, positions, names);
-        of_blocks.check(self.path(), "the matrix")?;
+        let of_blocks = Compressed::new(Major::Rows, n_blocks, pointers, indices, positions, names);
+        of_blocks.check_parts(self.path(), n_blocks[0] as usize)?;
         let mut entries = self.collector();
-        let size = size as usize;
+        let [high, wide] = [high as usize, wide as usize];
         for (block_row, block_col, position) in of_blocks.into_triplets(self.path())?.iter() {
-            let block = &values[position as usize * size * size..][..size * size];
+            let block = &values[position as usize * high * wide..][..high * wide];
             for (at, value) in block.iter().enumerate().filter(|(_, value)| **value != 0.0) {
-                let (row, col) = (block_row as usize * size + at / size, block_col as usize * size + at % size);
+                let (row, col) = (block_row as usize * high + at / wide, block_col as usize * wide + at % wide);
                 self.push(&mut entries, [row as u32, col as u32], *value)?;
             }
         }

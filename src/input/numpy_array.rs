@@ -17,9 +17,10 @@ use crate::sparse::Declared;
 const MAX_TEXT: u64 = 64;
 
 /// How NumPy calls the types of numbers that are read, without the mark of the order of bytes.
-const KINDS: [(&str, Kind); 11] = [
+const KINDS: [(&str, Kind); 12] = [
     ("f8", Kind::F64),
     ("f4", Kind::F32),
+    ("f2", Kind::F16),
     ("i1", Kind::I8),
     ("i2", Kind::I16),
     ("i4", Kind::I32),
@@ -30,6 +31,14 @@ const KINDS: [(&str, Kind); 11] = [
     ("u8", Kind::U64),
     ("b1", Kind::U8),
 ];
+
+/// How the numbers of an array of this type are stored; none of other types.
+pub(super) fn stored_as(descr: &str) -> Option<(Kind, Endian)> {
+    let (mark, kind) = descr.split_at_checked(1)?;
+    let (_, kind) = KINDS.into_iter().find(|(name, _)| *name == kind)?;
+    let endian = if mark == ">" { Endian::Big } else { Endian::Little };
+    matches!(mark, "<" | ">" | "|" | "=").then_some((kind, endian))
+}
 
 /// What the numbers of an array are read as.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -42,7 +51,7 @@ impl Numbers {
     fn in_words(self) -> &'static str {
         match self {
             Self::Whole => "whole numbers",
-            Self::Real => "real numbers of float64 or float32",
+            Self::Real => "real numbers of float64, float32 or float16",
         }
     }
 }
@@ -149,14 +158,8 @@ impl<'a, R: Read> Array<'a, R> {
 
     /// How the numbers are stored.
     fn stored(&self, wanted: Numbers) -> Result<(Kind, Endian)> {
-        let descr = self.header.descr.as_str();
-        let (mark, kind) = descr.split_at_checked(1).unwrap_or_default();
-        let kind = KINDS.into_iter().find(|(name, _)| *name == kind).map(|(_, kind)| kind);
-        let endian = if mark == ">" { Endian::Big } else { Endian::Little };
-        match kind.filter(|kind| kind.is_whole() || wanted == Numbers::Real) {
-            Some(kind) if matches!(mark, "<" | ">" | "|" | "=") => Ok((kind, endian)),
-            _ => Err(self.unread(wanted.in_words())),
-        }
+        let stored = stored_as(&self.header.descr).filter(|(kind, _)| kind.is_whole() || wanted == Numbers::Real);
+        stored.ok_or_else(|| self.unread(wanted.in_words()))
     }
 
     /// Makes sure that nothing follows the numbers; an archive compares its checksum here.

@@ -48,7 +48,7 @@ pub enum Faces {
         faces: Vec<Face>,
         /// Their area-weighted centroid.
         centroid: [f64; 3],
-        /// The share of each node of the patch in their area: that of a diagonal mass matrix with the diagonal of the consistent one.
+        /// The share of each node of the patch in their area: the integral of its shape function, or as near to it as is positive.
         areas: Vec<f64>,
     },
     /// The mesh has cells, but its faces are not known.

@@ -19,6 +19,7 @@ pub(super) enum Endian {
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
+    F16,
     F32,
     F64,
     I8,
@@ -31,6 +32,8 @@ pub(super) enum Kind {
     U64,
 }
 
+/// Decimal digits of a 16-bit float.
+const DIGITS_F16: u32 = 3;
 /// Decimal digits of a 32-bit float.
 const DIGITS_F32: u32 = 7;
 
@@ -39,7 +42,7 @@ impl Kind {
     pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
+            Self::F16 | Self::I16 | Self::U16 => 2,
             Self::F32 | Self::I32 | Self::U32 => 4,
             Self::F64 | Self::I64 | Self::U64 => 8,
         }
@@ -47,12 +50,16 @@ impl Kind {
 
     /// Whether it holds whole numbers alone.
     pub(super) fn is_whole(self) -> bool {
-        !matches!(self, Self::F32 | Self::F64)
+        !matches!(self, Self::F16 | Self::F32 | Self::F64)
     }
 
     /// Digits of a real number that it has room for.
     pub(super) fn digits(self) -> u32 {
-        if self == Self::F32 { DIGITS_F32 } else { u32::MAX }
+        match self {
+            Self::F16 => DIGITS_F16,
+            Self::F32 => DIGITS_F32,
+            _ => u32::MAX,
+        }
     }
 
     /// The number in the first bytes as a double; none where it is whole and no double equals it.
@@ -61,6 +68,7 @@ impl Kind {
         match self {
             Self::F64 => Some(f64::from_bits(bits)),
             Self::F32 => Some(f64::from(f32::from_bits(bits as u32))),
+            Self::F16 => Some(half_precision(bits as u16)),
             _ => {
                 let whole = self.whole(bytes, endian)?;
                 Some(whole as f64).filter(|real| *real as i128 == i128::from(whole))
@@ -77,12 +85,24 @@ impl Kind {
             Self::I32 => Some((bits as u32).cast_signed().into()),
             Self::I64 => Some(bits.cast_signed()),
             Self::U8 | Self::U16 | Self::U32 | Self::U64 => i64::try_from(bits).ok(),
-            Self::F32 | Self::F64 => {
+            Self::F16 | Self::F32 | Self::F64 => {
                 let real = self.real(bytes, endian)?;
                 Some(real as i64).filter(|whole| *whole as f64 == real && *whole < i64::MAX)
             }
         }
     }
+}
+
+/// The number of sixteen bits: a sign, five bits of exponent, ten of fraction.
+fn half_precision(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from((bits >> 10) & 0x1f), f64::from(bits & 0x3ff));
+    let size = match exponent {
+        0 => fraction * 2f64.powi(-24),
+        0x1f if fraction == 0.0 => f64::INFINITY,
+        0x1f => f64::NAN,
+        _ => (1024.0 + fraction) * 2f64.powi(exponent - 25),
+    };
+    if bits >> 15 == 0 { size } else { -size }
 }
 
 /// The bits of a number of so many bytes.
@@ -190,6 +210,18 @@ mod tests {
         assert_eq!(little(Kind::F32, &0.1f32.to_le_bytes()), (Some(f64::from(0.1f32)), None));
         assert_eq!(kind_of(Kind::F64, Endian::Big, &3.0f64.to_be_bytes()), (Some(3.0), Some(3)));
         assert_eq!(little(Kind::F64, &1e300f64.to_le_bytes()), (Some(1e300), None));
+        // One, minus two, a third, the largest, the smallest normal and the smallest number, minus infinity.
+        for (bits, real) in [
+            (0x3c00u16, 1.0),
+            (0xc000, -2.0),
+            (0x3555, 0.333_251_953_125),
+            (0x7bff, 65504.0),
+            (0x0400, 6.103_515_625e-5),
+            (0x0001, 5.960_464_477_539_063e-8),
+            (0xfc00, f64::NEG_INFINITY),
+        ] {
+            assert_eq!(little(Kind::F16, &bits.to_le_bytes()).0, Some(real), "{bits:#x}");
+        }
     }
 
     fn kind_of(kind: Kind, endian: Endian, bytes: &[u8]) -> (Option<f64>, Option<i64>) {

@@ -12,7 +12,7 @@ use super::gravity::GravityJob;
 use super::location::Holder;
 use super::reduction::ModesJob;
 use super::scene::SceneJob;
-use super::types::{Certify, ConstraintsToGround, Job, ModelState, Skip};
+use super::types::{Certify, ConstraintsToGround, Job, Mechanisms, ModelState, Skip};
 use super::{document, validation};
 use crate::error::{Error, Result};
 
@@ -65,7 +65,9 @@ impl Job {
         let preloaded = (self.model.state == ModelState::Preloaded).then(|| {
             "the component stays near the preloaded state of its stiffness and turns by small angles".to_owned()
         });
-        held.chain(resisted).chain(grounded).chain(preloaded).collect()
+        let loose = (self.model.mechanisms == Mechanisms::Accept)
+            .then(|| "parts of the component may move without strain beyond rigid-body motion".to_owned());
+        held.chain(resisted).chain(grounded).chain(loose).chain(preloaded).collect()
     }
 
     /// What the job says that a client of the superelement must know.
@@ -131,13 +133,13 @@ impl Job {
     }
 
     /// All paths of the job with their keys.
-    fn paths_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
+    pub(crate) fn paths_mut(&mut self) -> impl Iterator<Item = (&'static str, &mut PathBuf)> {
         let (model, write) = (&mut self.model, &mut self.write);
         let quantities = write.quantities.as_mut().map(|quantities| (&mut quantities.matrix, &mut quantities.names));
         let (matrix, names) = quantities.unzip();
         let modes = match &mut self.reduction.modes {
             Some(ModesJob::File { file }) => Some(file),
-            Some(ModesJob::Computed(_)) | None => None,
+            Some(ModesJob::Accepted { .. } | ModesJob::Computed(_)) | None => None,
         };
         let paths = [
             ("model.stiffness", Some(&mut model.stiffness)),

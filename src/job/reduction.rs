@@ -54,11 +54,11 @@ impl ReductionJob {
         Self { method, modes: Some(modes.into()), inertia_relief, held: None, eigensolver }
     }
 
-    /// The modes that are computed: none, where the method has none or a file has them.
+    /// The modes that the job asks to be computed: none, where the method has none, a file has them, or the scene decides.
     pub fn wanted(&self) -> ModeSelection {
         match self.modes {
             Some(ModesJob::Computed(selection)) => selection,
-            Some(ModesJob::File { .. }) | None => ModeSelection::Count { count: 0 },
+            Some(ModesJob::Accepted { .. } | ModesJob::File { .. }) | None => ModeSelection::Count { count: 0 },
         }
     }
 
@@ -66,7 +66,7 @@ impl ReductionJob {
     pub fn modes_file(&self) -> Option<&Path> {
         match &self.modes {
             Some(ModesJob::File { file }) => Some(file),
-            Some(ModesJob::Computed(_)) | None => None,
+            Some(ModesJob::Accepted { .. } | ModesJob::Computed(_)) | None => None,
         }
     }
 
@@ -83,6 +83,12 @@ impl ReductionJob {
 pub enum ModesJob {
     /// They are computed.
     Computed(ModeSelection),
+    /// `{ accept = true }`: the fewest with which the reduced model meets what the scene accepts.
+    Accepted {
+        /// Always `true`.
+        #[schemars(extend("const" = true))]
+        accept: bool,
+    },
     /// `{ file = "modes.mtx" }`: a file has them.
     File {
         /// Matrix Market, NumPy (`.npy`), or a dataset in an HDF5 file as in `model.h5:/V`: a mode in each column, a value for every row of
@@ -131,6 +137,7 @@ struct ModeTable {
     #[serde(default, deserialize_with = "super::whole::size")]
     count: Option<usize>,
     up_to_hz: Option<f64>,
+    accept: Option<bool>,
     file: Option<PathBuf>,
 }
 
@@ -139,12 +146,17 @@ impl TryFrom<ModeTable> for ModesJob {
 
     fn try_from(table: ModeTable) -> std::result::Result<Self, Self::Error> {
         match table {
-            ModeTable { count: Some(count), up_to_hz: None, file: None } => Ok(ModeSelection::Count { count }.into()),
-            ModeTable { count: None, up_to_hz: Some(up_to_hz), file: None } => {
+            ModeTable { count: Some(count), up_to_hz: None, accept: None, file: None } => {
+                Ok(ModeSelection::Count { count }.into())
+            }
+            ModeTable { count: None, up_to_hz: Some(up_to_hz), accept: None, file: None } => {
                 Ok(ModeSelection::UpTo { up_to_hz }.into())
             }
-            ModeTable { count: None, up_to_hz: None, file: Some(file) } => Ok(Self::File { file }),
-            _ => Err("expected exactly one of `count`, `up_to_hz` and `file`"),
+            ModeTable { count: None, up_to_hz: None, accept: Some(true), file: None } => {
+                Ok(Self::Accepted { accept: true })
+            }
+            ModeTable { count: None, up_to_hz: None, accept: None, file: Some(file) } => Ok(Self::File { file }),
+            _ => Err("expected exactly one of `count`, `up_to_hz`, `accept = true` and `file`"),
         }
     }
 }

@@ -148,6 +148,10 @@ pub struct ModelJob {
     #[serde(default, skip_serializing_if = "ConstraintsToGround::are_refused")]
     #[schemars(extend("default" = "refuse"))]
     pub constraints_to_ground: ConstraintsToGround,
+    /// What is said of motions inside the component that cost no energy.
+    #[serde(default, skip_serializing_if = "Mechanisms::are_warned_of")]
+    #[schemars(extend("default" = "warn"))]
+    pub mechanisms: Mechanisms,
     /// The state that K is the tangent stiffness of.
     #[serde(default, skip_serializing_if = "ModelState::is_unloaded")]
     #[schemars(extend("default" = "unloaded"))]
@@ -189,6 +193,23 @@ pub enum ConstraintsToGround {
 impl ConstraintsToGround {
     fn are_refused(&self) -> bool {
         *self == Self::Refuse
+    }
+}
+
+/// What is said of mechanisms, which are kept as zero modes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Mechanisms {
+    /// A warning.
+    #[default]
+    Warn,
+    /// They are meant, and stand among the assumptions.
+    Accept,
+}
+
+impl Mechanisms {
+    fn are_warned_of(&self) -> bool {
+        *self == Self::Warn
     }
 }
 

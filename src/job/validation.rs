@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use super::accept::AcceptJob;
 use super::interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
 use super::method::{Boundary, ModeOrigin};
 use super::node_selection::NodeSelection;
@@ -45,10 +46,12 @@ pub(super) fn validate(job: &Job) -> Result<()> {
 fn reduction(job: &Job) -> Result<()> {
     // The band decides how many modes are kept where nothing else does.
     let has_band = job.scene.as_ref().is_some_and(|scene| scene.band_hz.is_some());
+    let AcceptJob { frequency, response_db, .. } = job.accepted();
+    let accepts_errors_of_modes = has_band && (frequency.is_some() || response_db.is_some());
     let job = &job.reduction;
     let method = job.method.key();
     let computed = format!(
-        "expected how many modes {method} keeps: {{ count = 40 }} or {{ up_to_hz = 1000 }}, or a `band_hz` of the scene"
+        "expected how many modes {method} keeps: {{ count = 40 }}, {{ up_to_hz = 1000 }} or {{ accept = true }}, or a `band_hz` of the scene"
     );
     let of_file = format!("expected the file of the modes that {method} takes: {{ file = \"modes.mtx\" }}");
     let refuse = |found, expected| Err(Error::JobModes { found, expected });
@@ -57,7 +60,12 @@ fn reduction(job: &Job) -> Result<()> {
         (ModeOrigin::Computed, None) => refuse("missing", computed),
         (ModeOrigin::Computed, Some(ModesJob::File { .. })) => refuse("a file", computed),
         (ModeOrigin::File, None) => refuse("missing", of_file),
-        (ModeOrigin::File, Some(ModesJob::Computed(_))) => refuse("without a file", of_file),
+        (ModeOrigin::Computed, Some(ModesJob::Accepted { .. })) if !accepts_errors_of_modes => refuse(
+            "accept = true",
+            "expected a scene with a `band_hz` and with `frequency` or `response_db` in its `accept`, which the modes have to meet"
+                .to_owned(),
+        ),
+        (ModeOrigin::File, Some(ModesJob::Accepted { .. } | ModesJob::Computed(_))) => refuse("without a file", of_file),
         (ModeOrigin::None, Some(_)) => {
             refuse("given", format!("{method} keeps no modes: remove the key or use craig-bampton"))
         }

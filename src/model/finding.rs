@@ -138,6 +138,14 @@ impl Finding {
         Some(Self::FreeParticles { rows, first })
     }
 
+    /// How many rows it says to be free particles.
+    pub fn n_free_particles(&self) -> usize {
+        match self {
+            Self::FreeParticles { rows, .. } => rows.len(),
+            _ => 0,
+        }
+    }
+
     /// The code of the warning that a finding is, or nothing where it is a remark.
     pub fn warning(&self) -> Option<&'static str> {
         match self {

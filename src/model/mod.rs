@@ -30,7 +30,7 @@ pub use finding::{ASYMMETRY_WARN, Finding};
 pub use fit::{CoordinateFit, Misfit, RoundedCoordinates};
 pub use scaling::Scaling;
 pub use site::{Frame, Site, recentred};
-pub use symmetry::make_symmetric;
+pub use symmetry::{Asymmetry, make_symmetric};
 pub use weight::{Supports, Weight};
 
 /// A checked and scaled model.
@@ -237,7 +237,8 @@ fn symmetrised(name: &'static str, input: MatrixInput, names: RowNames<'_>) -> R
             names.number(asymmetry.worst.1),
             names.bracketed(asymmetry.worst.1)
         );
-        return Err(Error::Unsymmetric { matrix: name, asymmetry: asymmetry.relative, place });
+        let Asymmetry { relative: asymmetry, unpaired, .. } = asymmetry;
+        return Err(Error::Unsymmetric { matrix: name, asymmetry, place, unpaired });
     }
     let is_mended = asymmetry.relative > 0.0;
     Ok((matrix, is_mended.then_some(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative })))

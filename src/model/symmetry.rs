@@ -13,6 +13,8 @@ pub struct Asymmetry {
     pub relative: f64,
     /// Row and column of the largest difference.
     pub worst: (usize, usize),
+    /// Entries below and above the diagonal that have none at their mirror image.
+    pub unpaired: [usize; 2],
 }
 
 /// Replaces A by (A + Aᵀ)/2 and says how far it was from symmetric; exact zeros in, same bits out.
@@ -20,19 +22,20 @@ pub struct Asymmetry {
 /// A position stored on one side only counts as zero on the other and is given to both.
 pub fn make_symmetric(matrix: &mut SparseMatrix) -> Asymmetry {
     if is_symmetric(matrix) {
-        return Asymmetry { relative: 0.0, worst: (0, 0) };
+        return Asymmetry { relative: 0.0, worst: (0, 0), unpaired: [0, 0] };
     }
     let largest = matrix.data().iter().fold(0.0f64, |max, value| max.max(value.abs()));
-    let mut worst = (0.0, (0, 0));
+    let (mut worst, mut unpaired) = ((0.0, (0, 0)), [0, 0]);
     if !walk_pairs(matrix, &mut worst) {
         let transposed = matrix.transpose_view().to_csr();
         *matrix = sprs::binop::csmat_binop(matrix.view(), transposed.view(), |a, b| 0.5 * (a + b));
+        unpaired = n_unpaired(&transposed);
         let one_sided = one_sided_difference(matrix, &transposed);
         if one_sided.0 > worst.0 {
             worst = one_sided;
         }
     }
-    Asymmetry { relative: if largest > 0.0 { worst.0 / largest } else { 0.0 }, worst: worst.1 }
+    Asymmetry { relative: if largest > 0.0 { worst.0 / largest } else { 0.0 }, worst: worst.1, unpaired }
 }
 
 /// Whether a matrix has the same values at (i, j) and (j, i), by ranges of rows side by side.
@@ -114,6 +117,18 @@ fn walk_pairs(matrix: &mut SparseMatrix, worst: &mut (f64, (usize, usize))) -> b
     (0..n).all(|row| cursor[row] == pointers[row + 1])
 }
 
+/// Entries other than zero, below and above the diagonal, that have none at their mirror image.
+fn n_unpaired(transposed: &SparseMatrix) -> [usize; 2] {
+    let mut unpaired = [0, 0];
+    for (value, (col, row)) in transposed.iter() {
+        let (row, col) = (row as usize, col as usize);
+        if row != col && *value != 0.0 && transposed.get(row, col).is_none_or(|image| *image == 0.0) {
+            unpaired[usize::from(col > row)] += 1;
+        }
+    }
+    unpaired
+}
+
 fn one_sided_difference(mean: &SparseMatrix, transposed: &SparseMatrix) -> (f64, (usize, usize)) {
     let mut worst = (0.0, (0, 0));
     for (row, view) in mean.outer_iterator().enumerate() {
@@ -185,7 +200,7 @@ mod tests {
     fn unequal_pair_is_averaged_and_measured() {
         let mut a = matrix(&[(0, 0, 2.0), (0, 1, 1.0), (1, 0, 0.5), (1, 1, 3.0), (2, 2, 4.0)]);
         let found = make_symmetric(&mut a);
-        assert_eq!(found, Asymmetry { relative: 0.125, worst: (1, 0) });
+        assert_eq!(found, Asymmetry { relative: 0.125, worst: (1, 0), unpaired: [0, 0] });
         assert_eq!((a.get(0, 1), a.get(1, 0)), (Some(&0.75), Some(&0.75)));
     }
 

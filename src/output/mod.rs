@@ -17,3 +17,4 @@ mod warnings;
 
 pub use both::output;
 pub use results::Results;
+pub use superelement::job_document;

@@ -85,6 +85,9 @@ fn mass_properties(results: &Results<'_>) -> MassProperties {
         let motions = evidence.partition.model.weight.as_ref().and_then(|weight| weight.motions.as_ref());
         return motions.map_or_else(MassProperties::default, |m_f| rigid_body::mass_properties(results, m_f.as_ref()));
     }
+    if let Some(m_f) = evidence.partition.mass_of_preloaded_body() {
+        return rigid_body::mass_properties(results, m_f);
+    }
     if !evidence.rigid.is_classical {
         return MassProperties::default();
     }

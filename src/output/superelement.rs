@@ -9,9 +9,10 @@ use super::recovery::{quantities, recovery};
 use super::results::Results;
 use crate::basis::DynamicCoordinate;
 use crate::error::{Error, Result, json_value};
-use crate::job::{Job, ModeSelection, ModesJob};
+use crate::job::{Job, ModeSelection};
 use crate::partition::{DofOrigin, Frame, OF_THE_MODEL};
 use crate::plan::Mass;
+use crate::verification::Evidence;
 use crate::verification::check::{Check, Verdict};
 
 /// Puts the units back and names every coordinate.
@@ -155,11 +156,6 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
             column.remaining
         ),
     });
-    let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
-    // What moves of a held component has less mass than the whole.
-    let has_mass = results.plan.mass() == Mass::Reduced;
-    let is_whole = has_mass && evidence.rigid.is_classical && evidence.partition.held.count() == 0;
-    let classical = is_whole.then(|| file::mass_properties(&of_the_body())).flatten();
     let digests = results.input.digests();
     Ok(Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
@@ -185,12 +181,26 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         model: file::ModelSummary {
             n_dofs: evidence.partition.model.n_moving() as u64,
             rigid_body_modes: evidence.rigid.in_file(evidence.partition),
-            mass_properties: classical,
+            mass_properties: mass_properties(results, tensors),
         },
         inputs: digests.into_iter().map(|(role, digest)| (role, digest.to_owned())).collect(),
         job: job_document(results.plan.given())?,
         verification: verification(&results.checks(), verdict),
     })
+}
+
+/// The mass properties of one body that nothing holds: what moves of a held component has less mass than the whole.
+fn mass_properties(results: &Results<'_>, tensors: &Tensors) -> Option<file::MassProperties> {
+    let Evidence { partition, rigid, .. } = &results.evidence;
+    if results.plan.mass() != Mass::Reduced || partition.held.count() > 0 {
+        return None;
+    }
+    let of_preloaded = || {
+        let unit = partition.scaling.mass_unit();
+        partition.mass_of_preloaded_body().map(|m_f| Matrix::from_fn(6, 6, |i, j| unit * m_f[(i, j)]))
+    };
+    let of_the_body = || Matrix::from_fn(6, 6, |i, j| tensors.rigid_body_mass[(i, j)]);
+    file::mass_properties(&if rigid.is_classical { of_the_body() } else { of_preloaded()? })
 }
 
 fn interface_coordinates(results: &Results<'_>, nodes: &[file::InterfaceNode]) -> Vec<Coordinate> {
@@ -241,27 +251,16 @@ fn band(job: &Job, tensors: &Tensors) -> Option<[f64; 2]> {
 
 /// The job with its paths relative to the superelement's folder, so that the file does not depend on where that is; without
 /// pages for people and machines, which change nothing of the superelement.
-fn job_document(job: &Job) -> Result<serde_json::Value> {
+///
+/// # Errors
+/// [`crate::error::Error::NotJson`] where the path of a file is not UTF-8.
+pub fn job_document(job: &Job) -> Result<serde_json::Value> {
     let folder = job.write.superelement.parent().unwrap_or(Path::new("")).to_owned();
     let mut job = job.clone();
-    let relative = |path: &mut PathBuf| *path = relative_to(path, &folder);
-    relative(&mut job.model.stiffness);
-    job.model.mass.as_mut().map(relative);
-    job.model.dofs.as_mut().map(relative);
-    job.model.nodes.as_mut().map(relative);
-    job.model.internal_forces.as_mut().map(relative);
-    job.loads.iter_mut().filter_map(|load| load.file.as_mut()).for_each(relative);
-    job.matrices.iter_mut().for_each(|matrix| relative(&mut matrix.file));
-    if let Some(ModesJob::File { file }) = &mut job.reduction.modes {
-        relative(file);
-    }
-    if let Some(quantities) = &mut job.write.quantities {
-        relative(&mut quantities.matrix);
-        relative(&mut quantities.names);
-    }
-    relative(&mut job.write.superelement);
-    job.write.report.as_mut().map(relative);
     (job.write.html, job.write.junit) = (None, None);
+    for (_, path) in job.paths_mut() {
+        *path = relative_to(path, &folder);
+    }
     json_value("the job", &job)
 }
 

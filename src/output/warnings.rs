@@ -5,7 +5,7 @@ use crate::constraint::Loose;
 use crate::error::{Selector, Warning};
 use crate::factor::Refinement;
 use crate::input::{Faces, PatchFaces};
-use crate::job::{Boundary, Coupling, Precision};
+use crate::job::{Boundary, Coupling, Mechanisms, Precision};
 use crate::number::counted;
 use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
@@ -26,14 +26,15 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
         RigidSource::Geometric => 0,
     };
     let n_mechanisms = rigid.n_mechanisms.max(surplus);
-    if n_mechanisms > 0 {
+    if n_mechanisms > 0 && results.job().model.mechanisms == Mechanisms::Warn {
         let nodes: Vec<String> = loose.mechanisms.iter().map(|motion| motion.nodes.join(", ")).collect();
         let largest = if nodes.is_empty() { String::new() } else { format!(", largest at {}", nodes.join("; at ")) };
         warnings.push(Warning {
             code: "W-MECHANISM",
             message: format!(
                 "{} no energy, {n_mechanisms} of them inside the component{largest}: they are kept as zero modes \
-                 like rigid-body motions; close hinges and sliding joints if none were meant",
+                 like rigid-body motions; close hinges and sliding joints if none were meant, or say \
+                 model.mechanisms = \"accept\"",
                 counted(rigid.count(), "motion costs", "motions cost")
             ),
         });

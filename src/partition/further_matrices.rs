@@ -3,8 +3,11 @@
 //! ```text
 //! A       n × n      as it was read, symmetric or not, without the rows that were dropped
 //! TᵀAT    n' × n'    held dofs are at rest, and rows of a patch follow its node
-//! |T|ᵀ|A||T|         what the entries are sums of: those of a patch may cancel
+//! |T|ᵀS|T|           what the entries are sums of: those of a patch may cancel
+//! S_ij = |A_ij|, of damping max(|A_ij|, √(A_ii A_jj))
 //! ```
+//! Damping is itself a sum, of dampers or of modes, ∑ c_k d_k d_kᵀ. The terms of an entry are at most √(A_ii A_jj) together, however well they
+//! cancel: those of symmetric bodies do to the last digit.
 //! Each is kept with its largest entry in [1, 2).
 
 use faer::{Mat, MatRef};
@@ -29,7 +32,7 @@ pub struct CarriedMatrix {
     pub facts: MatrixFacts,
     /// TᵀAT in its unit, n' × n'. Of a symmetric or skew A it is so up to rounding.
     pub matrix: SparseMatrix,
-    /// |T|ᵀ|A||T|, where an entry may be a sum.
+    /// |T|ᵀS|T|, where an entry may be a sum.
     sizes: Option<SparseMatrix>,
 }
 
@@ -118,16 +121,34 @@ impl CarriedMatrix {
             if matrix.data().iter().all(|value| *value == 0.0) {
                 return Err(Error::MatrixNothing { matrix: facts.name, found: "all of it on held dofs" });
             }
-            of_rows.data_mut().iter_mut().for_each(|value| *value = value.abs());
-            let sizes = moduli.as_ref().map(|moduli| general_congruence(&of_rows, moduli));
+            let is_damping = facts.kind == MatrixKind::Damping;
+            let sizes = (is_damping || has_sums).then(|| {
+                to_terms(&mut of_rows, facts.kind);
+                general_congruence(&of_rows, moduli.as_ref().unwrap_or(transformation))
+            });
             Ok(Self { facts, matrix, sizes })
         };
         matrices.into_iter().map(of_row).collect()
     }
 
-    /// What the forces A u and Aᵀu of motions are sums of, relative to its unit: |T|ᵀ|A||T||u| and |T|ᵀ|Aᵀ||T||u|, n' × n_u each.
+    /// What the forces A u and Aᵀu of motions are sums of, relative to its unit: |T|ᵀS|T||u| and |T|ᵀSᵀ|T||u|, n' × n_u each.
     pub(crate) fn sizes_of_forces(&self, u: MatRef<'_, f64>) -> [Mat<f64>; 2] {
         let sizes = self.sizes.as_ref().unwrap_or(&self.matrix);
         [absolute_product(sizes, u), absolute_product(&sizes.transpose_view().to_csr(), u)]
+    }
+}
+
+/// S of the module in place of A.
+fn to_terms(matrix: &mut SparseMatrix, kind: MatrixKind) {
+    let roots: Vec<f64> = match kind {
+        MatrixKind::Damping => {
+            (0..matrix.rows()).map(|i| matrix.get(i, i).copied().unwrap_or(0.0).abs().sqrt()).collect()
+        }
+        _ => vec![0.0; matrix.rows()],
+    };
+    for (i, mut row) in matrix.outer_iterator_mut().enumerate() {
+        for (j, value) in row.iter_mut() {
+            *value = value.abs().max(roots[i] * roots[j]);
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Loads of a unit gravity field on a component that the job holds.
+//! Loads of a unit gravity field on a component that the job holds or preloads, whose rigid-body modes are not the six unit motions.
 //!
 //! ```text
 //! e       n × 3    unit translations of all rows, those that are held among them
@@ -7,6 +7,7 @@
 
 use faer::Mat;
 
+use super::held::Held;
 use super::transformation::Transformation;
 use crate::dense;
 use crate::model::Model;
@@ -21,9 +22,9 @@ pub struct Gravity {
     pub mass: f64,
 }
 
-/// The loads of gravity on a model; none without a dof map, which tells directions.
-pub(super) fn gravity(model: &Model, transformation: &Transformation) -> Option<Gravity> {
-    let dofs = model.dofs.as_ref()?;
+/// The loads of gravity on a model that is held or preloaded; none without a dof map, which tells directions.
+pub(super) fn gravity(model: &Model, transformation: &Transformation, held: &Held) -> Option<Gravity> {
+    let dofs = model.dofs.as_ref().filter(|_| held.count() > 0 || model.fit.is_preloaded())?;
     let moves = |row: usize, axis: usize| dofs[row].is_some_and(|dof| dof.direction as usize == axis);
     let unit = Mat::from_fn(dofs.len(), 3, |row, axis| f64::from(u8::from(moves(row, axis))));
     let momenta = product(&model.mass, unit.as_ref());

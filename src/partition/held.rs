@@ -84,6 +84,11 @@ impl Held {
         self.rows.contains_key(&row)
     }
 
+    /// Where held dofs are, node by node as often as they have some; nothing where coordinates are unknown.
+    pub fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.sites.iter().map(|site| site.position)
+    }
+
     /// Which of the six unit motions, rotations about a centre of a component of some size, move a held dof; none where
     /// coordinates are unknown.
     pub fn moved_by(&self, centre: [f64; 3], size: f64) -> [bool; 6] {

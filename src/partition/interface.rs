@@ -86,11 +86,30 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<R
     Ok(RecoveredRows { rows, positions, faces: None })
 }
 
-/// Labels of the nodes of patches, whose coordinates count. A selection that finds none is refused where it is resolved.
-pub fn nodes_of_patches(model: &Model, interfaces: &[InterfaceJob]) -> HashSet<i64> {
+/// Labels of the nodes of patches, whose coordinates count.
+#[derive(Clone, Debug, Default)]
+pub struct TiedNodes {
+    /// Of patches that move as rigid bodies.
+    pub rigid: HashSet<i64>,
+    /// Of patches with a mean motion.
+    pub average: HashSet<i64>,
+}
+
+impl TiedNodes {
+    /// Whether a node belongs to any patch.
+    pub fn contains(&self, node: i64) -> bool {
+        self.rigid.contains(&node) || self.average.contains(&node)
+    }
+}
+
+/// The nodes of patches. A selection that finds none is refused where it is resolved.
+pub fn nodes_of_patches(model: &Model, interfaces: &[InterfaceJob]) -> TiedNodes {
     let catalogue = NodeCatalogue::new(model);
-    let tied = interfaces.iter().filter(|job| job.coupling.is_patch());
-    tied.filter_map(|job| catalogue.select(model, &job.selection()).ok()).flatten().collect()
+    let of = |coupling: Coupling| {
+        let jobs = interfaces.iter().filter(|job| job.coupling == coupling);
+        jobs.filter_map(|job| catalogue.select(model, &job.selection()).ok()).flatten().collect()
+    };
+    TiedNodes { rigid: of(Coupling::Rigid), average: of(Coupling::Average) }
 }
 
 /// The nodes of a job between which faces tell something: patches, those that a pressure acts on, and recovered ones. A selection that

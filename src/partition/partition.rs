@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
 use crate::dofs::FileRows;
 use crate::error::{Error, Result};
@@ -15,6 +15,7 @@ use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
 use super::expansion::Expansion;
+use super::follower::Follower;
 use super::further_matrices::CarriedMatrix;
 use super::gravity::Gravity;
 use super::held::Held;
@@ -26,7 +27,8 @@ use super::quantities::Quantities;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
-use super::{congruence, constraints, gravity, interface, missing_directions, ordering, origin, statements};
+use super::turned_forces::TurnedForces;
+use super::{congruence, constraints, follower, gravity, interface, missing_directions, ordering, origin, statements};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
 pub const LARGEST_INTERFACE: usize = 20_000;
@@ -50,9 +52,11 @@ pub struct Partition {
     pub left_out: Vec<InterfaceNode>,
     /// Row of T for each row of the model.
     pub transformation: Transformation,
+    /// Rows of the model that are no dof: held ones, and those that follow others.
+    pub followers: Vec<Follower>,
     /// What the job holds; its rows are at rest.
     pub held: Held,
-    /// Loads of gravity, where dofs are held and directions are known.
+    /// Loads of gravity, where dofs are held or the state is preloaded, and directions are known.
     pub gravity: Option<Gravity>,
     /// Loads that the superelement carries by name; none unless the caller adds them.
     pub loads: Loads,
@@ -98,15 +102,21 @@ struct Carried {
 }
 
 impl Carried {
-    fn of([stiffness, mass]: [SparseMatrix; 2], transformation: &Transformation, precision: Precision) -> Self {
-        let of_partition = congruence::congruence(&stiffness, transformation);
+    /// `turned` adds to the stiffness what internal forces make of patches that turn.
+    fn of(
+        [stiffness, mass]: [SparseMatrix; 2],
+        transformation: &Transformation,
+        precision: Precision,
+        turned: impl FnOnce(SparseMatrix) -> Result<SparseMatrix>,
+    ) -> Result<Self> {
+        let of_partition = turned(congruence::congruence(&stiffness, transformation))?;
         let cancellation = congruence::cancellation(&stiffness, &of_partition, transformation);
         let patches = PatchEntries::of(&stiffness, transformation, precision.stiffness);
         drop(stiffness);
         let entries = |mass| PatchEntries::of(mass, transformation, precision.mass);
         let mass_patches = precision.mass.is_beyond_entries().then(|| entries(&mass));
         let mass = congruence::congruence(&mass, transformation);
-        Self { stiffness: of_partition, mass, cancellation, patches, mass_patches }
+        Ok(Self { stiffness: of_partition, mass, cancellation, patches, mass_patches })
     }
 }
 
@@ -154,26 +164,25 @@ impl Partition {
         let far_origins = origin::far_origins(&model, &resolved)?;
         let resolved = statements::heeded(&model, resolved, (scene, interfaces), &mut held)?;
         let transformation = Transformation::new(&model, &resolved, &held)?;
-        if transformation.dofs.is_empty() && held.count() > 0 {
-            return Err(Error::AllFixed { n_held: held.count(), n_dofs: model.n_dofs(), left: "no dof is left" });
-        }
+        let turned = TurnedForces::of(&model, &resolved, &transformation)?;
+        refuse_all_fixed(&model, &transformation, &held)?;
         let n_held = transformation.n_at_rest();
         let (transformation, n_dependent, constrained) = constraints::applied(&model, transformation)?;
         let order = ordering::elimination_order(&model, &transformation, parting)?;
         let transformation = transformation.permuted(&order.dofs);
         let n_internal = transformation.n_internal();
         let n_interface = transformation.dofs.len() - n_internal;
-        if n_interface > LARGEST_INTERFACE {
-            return Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE });
-        }
+        refuse_larger(n_interface)?;
         let mut findings = missing_directions::constrained_nodes(&model, &resolved);
         let mut facts = ModelFacts { n_dependent, n_held, ..facts(&model, &transformation, &held) };
         facts.findings.extend(constrained);
-        let gravity = if held.count() > 0 { gravity::gravity(&model, &transformation) } else { None };
-        let carried = Carried::of([model.stiffness, model.mass], &transformation, model.precision);
-        let Carried { stiffness, mass, .. } = &carried;
+        let gravity = gravity::gravity(&model, &transformation, &held);
+        let followers = follower::followers(&model, &transformation);
         let [interface, left_out] = resolved.into_nodes();
         let names = NodeNames([&interface, &left_out]);
+        let turned = |stiffness| turned.added_to(stiffness, &transformation, names);
+        let carried = Carried::of([model.stiffness, model.mass], &transformation, model.precision, turned)?;
+        let Carried { stiffness, mass, .. } = &carried;
         if model.constraints.is_some() {
             refuse_loose([stiffness, mass], &transformation, (names, &facts.rows))?;
             facts.n_bodies = n_bodies(stiffness, &transformation);
@@ -193,6 +202,7 @@ impl Partition {
             interface,
             left_out,
             transformation,
+            followers,
             held,
             gravity,
             loads: Loads::none(n_internal + n_interface),
@@ -224,6 +234,14 @@ impl Partition {
     pub fn sites(&self) -> Option<Vec<Option<Site>>> {
         let sites: Vec<Option<Site>> = self.dofs.iter().map(|dof| dof.site).collect();
         sites.iter().any(Option::is_some).then_some(sites)
+    }
+
+    /// UᵀMU of the six unit motions about the origin, 6 × 6 in scaled units, of one preloaded body that nothing holds. Its rigid-body modes
+    /// lack rotations, and its mass properties are those of all rows; none of any other component.
+    pub fn mass_of_preloaded_body(&self) -> Option<MatRef<'_, f64>> {
+        let is_free = self.fit.is_preloaded() && self.held.count() == 0 && self.model.n_bodies == 1;
+        let weight = self.model.weight.as_ref().filter(|_| is_free)?;
+        weight.motions.as_ref().map(Mat::as_ref)
     }
 
     /// The six unit motions of dofs about a point, as rows of n' × 6 with zeros elsewhere: by the coordinates or, where those
@@ -263,6 +281,21 @@ impl Partition {
     pub fn internal(&self) -> Pencil<'_> {
         let block = |matrix| Leading::new(matrix, self.n_internal);
         Pencil::new(block(&self.stiffness), block(&self.mass))
+    }
+}
+
+fn refuse_all_fixed(model: &Model, transformation: &Transformation, held: &Held) -> Result<()> {
+    match transformation.dofs.is_empty() && held.count() > 0 {
+        true => Err(Error::AllFixed { n_held: held.count(), n_dofs: model.n_dofs(), left: "no dof is left" }),
+        false => Ok(()),
+    }
+}
+
+/// Refuses an interface whose matrices would be too large.
+fn refuse_larger(n_interface: usize) -> Result<()> {
+    match n_interface > LARGEST_INTERFACE {
+        true => Err(Error::InterfaceTooLarge { n_interface, limit: LARGEST_INTERFACE }),
+        false => Ok(()),
     }
 }
 

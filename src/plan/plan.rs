@@ -9,7 +9,7 @@ use super::rule::{Decision, Kind, RuleId};
 use super::rules;
 use super::scene::Scene;
 use super::table::RULES;
-use crate::job::{Job, SceneJob};
+use crate::job::{Job, ModeSelection, ModesJob, SceneJob};
 
 /// What a run does.
 #[derive(Clone, Debug)]
@@ -39,6 +39,31 @@ impl Plan {
     #[must_use]
     pub fn knowing(&self, facts: Facts) -> Self {
         Self { facts: Some(facts), ..self.clone() }
+    }
+
+    /// The plan with these modes.
+    #[must_use]
+    pub fn keeping(&self, modes: ModeSelection) -> Self {
+        let mut plan = self.clone();
+        plan.job.reduction.modes = Some(modes.into());
+        plan
+    }
+
+    /// The plan of what a file answers that keeps so many modes: where the job leaves their number to the scene, these.
+    #[must_use]
+    pub fn with_modes_of_file(&self, count: usize) -> Self {
+        match self.searched_hz() {
+            Some(_) => self.keeping(ModeSelection::Count { count }),
+            None => self.clone(),
+        }
+    }
+
+    /// The band that is looked through for the fewest modes that meet what the scene accepts, in Hz; none where the job says how many.
+    pub fn searched_hz(&self) -> Option<f64> {
+        match (&self.given.reduction.modes, self.job.reduction.wanted()) {
+            (Some(ModesJob::Accepted { .. }), ModeSelection::UpTo { up_to_hz }) => Some(up_to_hz),
+            _ => None,
+        }
     }
 
     /// The job as it was given; the superelement keeps it.

@@ -263,12 +263,19 @@ fn counted_in_words(count: &BandCount) -> String {
 
 fn missing_in_words(mode: &MissingMode) -> String {
     let MissingMode { frequency_hz, error_bar_hz, of_frequency: [n_modes, n_given] } = mode;
-    let bar = scientific(*error_bar_hz, 1);
-    let frequency = format!("{} Hz ± {bar}", quantity(*frequency_hz, 9));
+    let frequency = with_bar(*frequency_hz, *error_bar_hz);
     match n_modes {
         1 => frequency,
         n => format!("{frequency}: the model has {n} modes of this frequency, the result {n_given}"),
     }
+}
+
+/// A frequency and its error bar, with digits down to a tenth of that.
+fn with_bar(hertz: f64, bar: f64) -> String {
+    /// Digits that the matrices of practice have.
+    const MOST: i32 = 9;
+    let digits = if bar > 0.0 { number::decade(hertz) - number::decade(bar) + 2 } else { MOST };
+    format!("{} Hz ± {}", quantity(hertz, digits.clamp(1, MOST) as usize), scientific(bar, 1))
 }
 
 pub(super) fn kind_word(kind: PairKind) -> &'static str {
@@ -318,11 +325,17 @@ pub(super) fn pair_in_words(pair: &JudgedPair) -> String {
             };
             format!("{name}: K and M have no such mode – {near}; largest residual at {}", pair.worst_at)
         }
+        PairKind::Inexact if pair.out_of_place.is_some() => {
+            let share = quantity(pair.out_of_place.unwrap_or(0.0), 2);
+            format!(
+                "{name}: it moves rows that are held, or that follow others, by {share} of its largest displacement"
+            )
+        }
         PairKind::Inexact => match pair.mode_hz {
             Some(0.0) => format!("{name}: rigid-body motion, which has no frequency"),
             Some(mode) => format!(
-                "{name}: {shape}, the mode that it is has {} Hz, off by {} %",
-                quantity(mode, 9),
+                "{name}: {shape}, the mode that it is has {}, off by {} %",
+                with_bar(mode, pair.mode_error_bar_hz.unwrap_or(f64::INFINITY)),
                 quantity(100.0 * (stated / mode - 1.0), 2)
             ),
             None => format!("{name}: {shape}"),

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 /// Version of the report's layout, raised when a reader of the old one would misread the new one.
-const FORMAT_VERSION: u32 = 1;
+pub(super) const FORMAT_VERSION: u32 = 1;
 
 impl Report {
     /// The JSON document; numbers that are not finite become `null`.

@@ -17,7 +17,9 @@ pub(crate) mod mode_table;
 pub(crate) mod page;
 mod plan;
 mod printable;
+mod recorded;
 mod reduction;
+mod reductions;
 mod rigid_body;
 mod stages;
 pub(crate) mod summary;
@@ -52,16 +54,19 @@ pub use page::Paint;
 pub use plan::PlanReport;
 pub(crate) use printable::json_text;
 pub(crate) use printable::{field, is_plain_field, printable, value_text};
+pub use recorded::{RecordedReport, RecordedVerdict};
 pub use reduction::{
     DroppedCoordinate, FacesReport, InterfacePosition, InterfaceReport, ModeKind, ModeRow, PositionOrigin,
     ReductionReport, SkippedReport,
 };
+pub use reductions::{ComponentOutcome, ComponentRow, ErrorLine, JoinRow, ReductionsReport};
 pub use rigid_body::{EffectiveMass, Grounding, MassRoute, RigidBodyEvidence};
 pub use stages::{Observer, StageClock, StageTime};
 pub use summary::summary;
 pub use superelement::{ReducedReport, ReducedSource};
 pub use trust::TrustInterval;
 pub use verification::{Against, Reproduction, VerificationReport};
+pub(crate) use words::file as file_words;
 pub use words::unmet_check;
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.

@@ -19,7 +19,7 @@ pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
 }
 
 /// What a file of the model is, by its role.
-pub(super) fn file(role: &str) -> &str {
+pub(crate) fn file(role: &str) -> &str {
     match role {
         "dofs" => "dof map",
         "dofs_data" => "nodes made of shells and beams",

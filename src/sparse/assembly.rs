@@ -11,7 +11,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::by_rows::{balanced_ranges, split_by_rows};
-use super::{AssemblyNotes, Declared, SparseMatrix, TripletBlocks, Triplets};
+use super::{AssemblyNotes, Declared, Given, SparseMatrix, TripletBlocks, Triplets};
 use crate::error::{Error, Result};
 
 impl Triplets {
@@ -74,35 +74,13 @@ impl TripletBlocks {
         self.blocks.iter().flat_map(Triplets::iter)
     }
 
-    /// Puts all entries below the diagonal where every pair of a row and a column is given once, some this way round and some the other.
-    pub fn fold_where_given_once(&mut self) {
-        let first = |side: fn(u32, u32) -> bool| self.iter().find(|&(row, col, _)| side(row, col));
-        let (Some((row, col, _)), Some(_)) = (first(|row, col| row > col), first(|row, col| row < col)) else { return };
-        // A whole matrix has the mirror image of each entry, that of the first one, too.
-        if self.iter().any(|(other_row, other_col, _)| (other_row, other_col) == (col, row)) {
-            return;
-        }
-        let key = |row: u32, col: u32| (u64::from(row) << 32) | u64::from(col);
-        let mut above: Vec<u64> = Vec::new();
-        above.extend(self.iter().filter(|(row, col, _)| row < col).map(|(row, col, _)| key(col, row)));
-        above.par_sort_unstable();
-        let is_twice = |(row, col, _): (u32, u32, f64)| row > col && above.binary_search(&key(row, col)).is_ok();
-        if self.blocks.par_iter().any(|block| block.iter().any(is_twice)) {
-            return;
-        }
-        for Triplets { rows, cols, .. } in &mut self.blocks {
-            for (row, col) in rows.iter_mut().zip(cols).filter(|(row, col)| row < col) {
-                std::mem::swap(row, col);
-            }
-        }
-    }
-
     /// Assembles the n × n matrix: mirrors the triangle of a symmetric source, adds duplicates in the order of the
-    /// file, sorts every row. A source declared general whose off-diagonal entries all lie on one side of the diagonal
-    /// is mirrored too, which the notes say; one declared whole is not. `path` names the source in errors.
+    /// file, sorts every row. A source declared general that gives each pair of a row and a column once is mirrored too,
+    /// which the notes say; one declared whole is not. `path` names the source in errors.
     ///
     /// # Errors
-    /// [`Error::DoubleTriangle`] where a source declared symmetric or skew has entries on both sides of the diagonal.
+    /// [`Error::DoubleTriangle`] where a source declared symmetric or skew has entries on both sides of the diagonal;
+    /// [`Error::SkewDiagonal`] where one declared skew has an entry other than zero on it.
     ///
     /// # Panics
     /// Where the three lists differ in length or an index is not below n; readers check indices where they can still
@@ -113,14 +91,12 @@ impl TripletBlocks {
             let lengths = (rows.len(), cols.len(), values.len());
             assert!(lengths.0 == lengths.2 && lengths.1 == lengths.2, "rows, columns and values: {lengths:?}");
         }
-        let (lower, upper) = (self.first_where(|row, col| row > col), self.first_where(|row, col| row < col));
-        let mirror = match (declared, lower, upper) {
-            (Declared::Symmetric | Declared::Skew, Some(lower), Some(upper)) => {
-                return Err(Error::DoubleTriangle { path: path.to_owned(), lower, upper });
-            }
-            (_, None, None) | (Declared::General, Some(_), Some(_)) | (Declared::Whole, ..) => Mirror::Off,
-            (Declared::Skew, ..) => Mirror::Negated,
-            (Declared::General | Declared::Symmetric, ..) => Mirror::On,
+        let given = if declared == Declared::Whole { Given::Whole } else { self.given() };
+        self.check_declared(declared, given, path)?;
+        let mirror = match (declared, given) {
+            (_, Given::Whole) | (Declared::OneHolds, Given::EitherOrder { .. }) => Mirror::Off,
+            (Declared::Skew, _) => Mirror::Negated,
+            _ => Mirror::On,
         };
         let pointers = row_pointers(&self, n, mirror);
         let (mut indices, mut data) = scatter(&self, &pointers, mirror);
@@ -134,10 +110,27 @@ impl TripletBlocks {
             // What is stored twice was given once.
             (_, Mirror::On | Mirror::Negated) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
-        let mirrored = mirror == Mirror::On && declared == Declared::General;
-        let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, mirrored };
+        let is_told = mirror == Mirror::On && declared != Declared::Symmetric;
+        let given = if is_told { given } else { Given::Whole };
+        let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, given };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
         Ok((matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())), notes))
+    }
+
+    /// Refuses what contradicts a declaration that one triangle is given.
+    fn check_declared(&self, declared: Declared, given: Given, path: &Path) -> Result<()> {
+        if matches!(declared, Declared::Symmetric | Declared::Skew) && given != Given::OneTriangle {
+            let (lower, upper) = (self.first_where(|row, col| row > col), self.first_where(|row, col| row < col));
+            if let (Some(lower), Some(upper)) = (lower, upper) {
+                return Err(Error::DoubleTriangle { path: path.to_owned(), lower, upper });
+            }
+        }
+        if declared == Declared::Skew
+            && let Some((row, _, value)) = self.iter().find(|&(row, col, value)| row == col && value != 0.0)
+        {
+            return Err(Error::SkewDiagonal { path: path.to_owned(), row: u64::from(row) + 1, value });
+        }
+        Ok(())
     }
 
     /// Row and column, from 1, of the first entry on one side of the diagonal.

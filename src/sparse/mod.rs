@@ -8,6 +8,7 @@
 mod assembly;
 mod by_rows;
 mod energy;
+mod given;
 mod leading;
 mod pencil;
 mod principal;
@@ -17,6 +18,7 @@ mod triangle;
 
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
 pub(crate) use energy::{absolute_energy, energies_of_terms};
+pub use given::Given;
 pub use leading::{Leading, diagonal};
 pub use pencil::{Pencil, Precision};
 pub(crate) use principal::principal;
@@ -46,8 +48,10 @@ pub(crate) const ROW_BYTES: u64 = 8;
 /// How a source declares its triplets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Declared {
-    /// Every entry is given, or one triangle that stands for both.
+    /// Every entry is given, or each pair of a row and a column once, in one triangle or in either order, which stands for both.
     General,
+    /// Every entry is given, or one triangle that stands for both; which triangle holds is known.
+    OneHolds,
     /// Every entry is given.
     Whole,
     /// One triangle is given and stands for both.
@@ -83,6 +87,6 @@ pub struct AssemblyNotes {
     pub most_repeated: usize,
     /// The most of the entries as they came that are of one size; unknown where not counted.
     pub most_alike: Option<usize>,
-    /// A source declared general held one triangle only, which was mirrored.
-    pub mirrored: bool,
+    /// What a source declared general gave. It was mirrored unless that was the whole matrix.
+    pub given: Given,
 }

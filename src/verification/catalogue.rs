@@ -158,8 +158,8 @@ pub const OF_RESULTS: &[Entry] = &[
         "C-08",
         Proof::Measured,
         Recorded::Sometimes,
-        "Frequencies of the superelement with its interface free against those of the component, one to one, within the band. Above it \
-         they may differ.",
+        "Frequencies of the superelement with its interface free against those of the component, within the band, of modes whose shapes are \
+         the same. Above it they may differ.",
         "Keep more modes, or ask for a --band that ends lower.",
     ),
     line(
@@ -169,6 +169,32 @@ pub const OF_RESULTS: &[Entry] = &[
         "Each mode of the free component in the band is made up of the columns of the basis as well as they can. What is left over is a \
          motion that the superelement does not know; most of a mode left over is a mode that it has not.",
         "A mode was lost on the way, or too few were kept.",
+    ),
+    line(
+        "C-10",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Rows that --fix holds stay at rest, and rows that --constraints makes dependent follow the others, in every shape and in every \
+         column of a basis as the file has it. Nothing else looks at these rows: they are no dofs of K and M as they are compared with.",
+        "The result is that of other supports or constraints: give those that it was computed with.",
+    ),
+    line(
+        "C-11",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "No column of a basis is made up of the others, and no motion is without stiffness and mass at once in the reduced matrices: \
+         otherwise they are singular together, and no simulation can solve with them. A condition loses as many digits as it has: six are \
+         left at the limit, three where the check fails.",
+        "Leave out the column named, or orthogonalise the columns before the projection.",
+    ),
+    line(
+        "C-12",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "A superelement of modes has some modes of its component exactly, with its interface held or free: at least half of its amplitudes \
+         are such. Up to the highest of them a count finds which are left out. It fails where frequencies in the band are off by more than \
+         a tenth, and warns where nothing shows that they are needed.",
+        "The mode named was lost on the way: compute the modes again, with a count of them.",
     ),
 ];
 
@@ -433,5 +459,14 @@ pub const CATALOGUE: &[Entry] = &[
          of K or M couples them.",
         "The interior is too badly conditioned for its condensation: `run.constraint_modes = \"stored\"` keeps every column, `--no-skip` \
          leaves nothing out.",
+    ),
+    line(
+        "M-33",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Comparisons that were to be made and that have no answer: where the reduced matrices are singular together, or negative, no \
+         frequency and no response of theirs exists. A comparison that was left out because of what it costs is not counted.",
+        "Look at what is named, and at M-23 and M-25: a column of the basis may depend on the others. A superelement that has no answer here \
+         has none in a simulation.",
     ),
 ];

@@ -77,7 +77,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         let m_f = evidence.reduction.rigid_body_mass.as_ref();
         checks.push(mass::of_a_body(m_f, evidence.partition.precision.mass.share));
     }
-    checks.extend(mass::of_held_body(evidence.partition));
+    checks.extend(mass::of_weighed_body(evidence.partition));
     checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));
     checks.extend(mass::expected(evidence));
     checks.extend(attached::flexibility(evidence));

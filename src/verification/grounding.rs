@@ -9,6 +9,7 @@ use super::spectrum::Spectrum;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{Equilibrated, eigenvalues};
 use crate::error::Result;
+use crate::model::Finding;
 use crate::sparse::{product, product_and_terms};
 
 /// One direction.
@@ -58,8 +59,9 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
     let scale = Equilibrated::of(partition.pencil()).scale;
     // Where no elastic mode is known, one in scaled units: the largest K_ii over the largest M_ii.
     let first = spectrum.scale(directions.count().max(evidence.rigid.count())).unwrap_or(1.0);
-    // Where K lets fewer motions pass than there are directions, some are held.
-    let all_free = directions.count() <= evidence.rigid.count();
+    // Where K lets fewer motions pass than there are directions, some are held. Particles move by themselves.
+    let n_particles: usize = partition.model.findings.iter().map(Finding::n_free_particles).sum();
+    let all_free = directions.count() + n_particles <= evidence.rigid.count();
     let precision = partition.precision.stiffness.relative + f64::EPSILON;
     // Of entries that are known to a share of themselves the terms tell enough.
     let of_digits = match partition.precision.stiffness.is_beyond_entries() {

@@ -81,11 +81,11 @@ pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, precision: f64) -> Check {
     }
 }
 
-/// M-16 of a component that the job holds, by its mass before supports take rows out of it. None where nodes lack a translation: supports
-/// may have taken it out before.
-pub(crate) fn of_held_body(partition: &Partition) -> Option<Check> {
-    let weight =
-        partition.model.weight.as_ref().filter(|weight| weight.has_whole_nodes && partition.held.count() > 0)?;
+/// M-16 of a component that the job holds or preloads, by its mass before supports take rows out of it. None where nodes lack a
+/// translation: supports may have taken it out before.
+pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
+    let is_weighed = partition.held.count() > 0 || partition.fit.is_preloaded();
+    let weight = partition.model.weight.as_ref().filter(|weight| weight.has_whole_nodes && is_weighed)?;
     Some(of_a_body(weight.motions.as_ref()?.as_ref(), partition.precision.mass.share))
 }
 

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel_models::transform::{grounded, join, scaled, supported};
-use supel_models::{Material, Model, brick};
+use supel_models::transform::{grounded, join, rounded, scaled, supported};
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
 use supel_testing::place::{Ended, Place, steel_brick, supel};
 use supel_testing::schema::{assert_follows, validator};
 
@@ -125,6 +125,19 @@ fn a_support_left_in_is_named() {
     assert!(told.contains("*BOUNDARY, OP=NEW"), "lines for the deck: {told}");
 }
 
+/// A spring shows by what it is above the rounding of its own matrices, however soft it is.
+#[test]
+fn a_soft_spring_to_the_ground_is_named() {
+    for (stiffness, digits) in [(3e4, 17), (3e3, 17), (3e6, 9)] {
+        let model = rounded(&grounded(&steel_brick(), 3 * 16 + 2, stiffness), digits);
+        let found = examined(&Place::with(&model), ALL, ExitCode::Done);
+        let named = found["grounded"]["culprits"][0]["dof"].as_str().unwrap_or_default();
+        assert!(named.contains("node 17 uz"), "{stiffness:e} {digits}: {found}");
+        let told = found["grounded"]["culprits"][0]["stiffness"].as_f64().expect("a stiffness");
+        assert!((told / stiffness - 1.0).abs() < 1e-2, "{stiffness:e} {digits}: {told}");
+    }
+}
+
 /// Rows that supports took out are told by their neighbours; the component is held, which may be meant.
 #[test]
 fn supports_that_took_rows_out() {
@@ -146,6 +159,43 @@ fn dofs_held_by_a_flag_are_no_finding() {
     assert!(findings(&found).iter().all(|(_, text)| !text.contains("grounded")), "{found}");
 }
 
+/// A node with mass that no stiffness reaches, and what its neighbours feel of it.
+#[test]
+fn a_massive_node_that_nothing_holds() {
+    let mut model = steel_brick();
+    // Node 5, in the middle of an end.
+    model.stiffness.retain(|(i, j, _)| ![i, j].iter().any(|row| **row / 3 == 4));
+    let place = Place::with(&model);
+    let found = examined(&place, ALL, ExitCode::Done);
+    assert!(finding(&found, "W-FREE-PARTICLE").contains("node 5 ux"), "{found}");
+    let all = findings(&found);
+    assert_eq!(all.iter().filter(|(_, text)| text.contains("free particles")).count(), 1, "said once: {all:?}");
+    // What is held at the place of the node is not nearly free.
+    assert!(all.iter().all(|(code, _)| *code != "W-GROUNDED"), "{all:?}");
+    let (_, held) = all.iter().find(|(_, text)| text.contains("supports hold the component")).expect("told");
+    assert!(held.contains("next to dofs that are not in the stiffness"), "{held}");
+    let text = doctor(&place, ALL).out;
+    assert!(text.contains("6 motions are free") && !text.contains("as of a body in space"), "{text}");
+}
+
+/// A spring that pushes is named as one that pulls is, by its stiffness.
+#[test]
+fn a_negative_spring_is_named() {
+    let model = grounded(&steel_brick(), 3 * 16 + 2, -3e6);
+    let found = examined(&Place::with(&model), ALL, ExitCode::CheckFailed);
+    let all = findings(&found);
+    let (_, told) = all.iter().find(|(_, text)| text.contains("grounded")).expect("told");
+    assert!(told.contains("node 17 uz (-3.00e+06 N/m)"), "{told}");
+    assert!(all.iter().all(|(_, text)| !text.contains("supports hold the component")), "{all:?}");
+}
+
+/// What is wrong with the mass is the same without the nodes.
+#[test]
+fn a_negative_mass_is_found_once() {
+    let found = examined(&Place::with(&scaled(&steel_brick(), 1.0, -1.0)), ALL, ExitCode::CheckFailed);
+    finding(&found, "E-NEG-MASS");
+}
+
 #[test]
 fn parts_that_nothing_joins() {
     let far = supel_models::transform::translated(&steel_brick(), [3.0, 0.0, 0.0]);
@@ -155,7 +205,78 @@ fn parts_that_nothing_joins() {
     assert!(text.contains("2 bodies") && text.contains("12 motions are free"), "{text}");
 }
 
-/// Steel in millimetres, with stiffness in N/mm and mass in kilograms: frequencies are wrong by √1000, and nothing else shows it.
+/// Systems of units by their labels: metres, kilograms and seconds in their units.
+const SYSTEMS: [(&str, [f64; 3]); 7] = [
+    ("m-kg-s", [1.0, 1.0, 1.0]),
+    ("mm-t-s", [1e-3, 1e3, 1.0]),
+    ("mm-kg-ms", [1e-3, 1.0, 1e-3]),
+    ("mm-g-ms", [1e-3, 1e-3, 1e-3]),
+    ("cm-g-s", [1e-2, 1e-3, 1.0]),
+    ("in-slinch-s", [0.0254, 175.126_8, 1.0]),
+    ("ft-slug-s", [0.3048, 14.593_9, 1.0]),
+];
+
+/// Young's modulus in Pa and density in kg/m³ of steel, aluminium and rubber.
+const MATERIALS: [[f64; 2]; 3] = [[2.1e11, 7850.0], [7e10, 2700.0], [1e7, 1100.0]];
+
+/// A material in a system of units.
+fn in_units([young, density]: [f64; 2], [length, mass, time]: [f64; 3]) -> Material {
+    let poisson = 0.3;
+    Material { young: young * length * time * time / mass, poisson, density: density * length.powi(3) / mass }
+}
+
+/// A frame of a box, with beams of a slenderness, in metres over the unit of length.
+fn boxed_frame(size: f64, slenderness: f64, material: &Material) -> Model {
+    let corners: Vec<[f64; 3]> = (0..8u8)
+        .map(|at| [at & 1, (at >> 1) & 1, at >> 2])
+        .map(|at| [f64::from(at[0]) * size, f64::from(at[1]) * 0.6 * size, f64::from(at[2]) * 0.4 * size])
+        .collect();
+    let edges: Vec<[usize; 2]> =
+        (0..8usize).flat_map(|a| [1, 2, 4].map(|bit| [a, a | bit])).filter(|[a, b]| a != b).collect();
+    frame(&corners, &edges, &Section::round(0.5 * slenderness * size), material, Inertia::Consistent)
+}
+
+/// The units of a model.
+#[track_caller]
+fn units(model: &Model) -> (Value, String) {
+    let place = Place::with(model);
+    let found = examined(&place, ALL, ExitCode::Done);
+    let text = doctor(&place, ALL).expect(ExitCode::Done).out;
+    (found, text)
+}
+
+/// The system of a sound model is among those that are listed, and nothing says that its mass is wrong.
+#[test]
+fn sound_models_keep_their_mass() {
+    for (label, scale) in SYSTEMS {
+        for of in MATERIALS {
+            let material = in_units(of, scale);
+            let solid = brick([3, 1, 1], [0.1, 0.031, 0.023].map(|length| length / scale[0]), &material);
+            let frames = [0.02, 0.004].map(|slenderness| boxed_frame(1.3 / scale[0], slenderness, &material));
+            for (kind, model) in [("solid", &solid), ("frame", &frames[0]), ("slender frame", &frames[1])] {
+                let found = examined(&Place::with(model), ALL, ExitCode::Done);
+                let listed = found["units"].as_array().expect("units");
+                assert!(listed.iter().any(|guess| guess["label"] == label), "{kind} {of:?} {label}: {listed:?}");
+                assert!(listed[0]["is_mixed"] == false, "{kind} {of:?} {label}: {listed:?}");
+                assert!(!found.to_string().contains("divide the mass"), "{kind} {of:?} {label}: {found}");
+            }
+        }
+    }
+}
+
+/// Nodes on a line or in a plane span no volume, and the page says that rather than blaming the matrices.
+#[test]
+fn beams_in_a_row_have_no_density() {
+    let nodes: Vec<[f64; 3]> = (0..6u8).map(|at| [0.2 * f64::from(at), 0.0, 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (0..5).map(|at| [at, at + 1]).collect();
+    let steel = in_units(MATERIALS[0], [1.0; 3]);
+    let (found, text) = units(&frame(&nodes, &edges, &Section::round(0.01), &steel, Inertia::Consistent));
+    assert_eq!(found["units"].as_array().map(Vec::len), Some(0), "{found}");
+    assert!(text.contains("so that the density is unknown") && !text.contains("no system"), "{text}");
+}
+
+/// Steel in millimetres, with stiffness in N/mm and mass in kilograms: frequencies are wrong by √1000, and nothing else shows it. A block
+/// of it could be a thin shell of wood in inches; so both are listed.
 #[test]
 fn units_that_do_not_go_together() {
     let in_millimetres = Material { young: 210_000.0, poisson: 0.3, density: 7.85e-9 };
@@ -163,12 +284,57 @@ fn units_that_do_not_go_together() {
     let found = examined(&Place::with(&sound), ALL, ExitCode::Done);
     assert_eq!((&found["units"][0]["label"], findings(&found).len()), (&"mm-t-s".into(), 0), "{found}");
     let found = examined(&Place::with(&scaled(&sound, 1.0, 1e3)), ALL, ExitCode::Done);
-    let told = finding(&found, "");
-    assert!(told.contains("31.6 times too low: divide the mass by 1000"), "{told}");
+    let last = found["units"].as_array().and_then(|units| units.last()).expect("units");
+    assert_eq!((&last["is_mixed"], &last["label"]), (&true.into(), &Value::Null), "{found}");
+    assert!(last["frequencies"].as_str().is_some_and(|told| told.contains("31.6 times too low")), "{found}");
+    let text = doctor(&Place::with(&scaled(&sound, 1.0, 1e3)), ALL).expect(ExitCode::Done).out;
+    assert!(text.contains("a mixture of stiffness in N/mm") && text.contains("31.6"), "{text}");
+    // Where it fills little of its box, no sound system has so little density, and the mass on a scale decides.
+    let mut hollow = scaled(&sound, 1.0, 1e3 * 0.1);
+    hollow = scaled(&hollow, 0.1, 1.0);
+    let told = finding(&examined(&Place::with(&hollow), ALL, ExitCode::Done), "");
+    for part in ["\"remark\"", "31.6 times too low", "compare the mass of the body", "if that is in kg, divide"] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
     // kN/mm, kg and ms go together; frequencies are in kHz.
     let found = examined(&Place::with(&scaled(&sound, 1e-3, 1e3)), ALL, ExitCode::Done);
     let told = finding(&found, "");
     assert!(told.contains("kHz") && told.contains("units = \\\"mm-kg-ms\\\""), "{told}");
+}
+
+/// The lower triangle of a matrix is complete, or the upper one, or neither; of a matrix that gives each pair once, both are.
+#[test]
+fn matrices_that_lack_entries() {
+    let place = Place::with(&steel_brick());
+    let whole = steel_brick().stiffness;
+    let market = |entries: &[(u32, u32, f64)]| {
+        let lines: String =
+            entries.iter().map(|(row, col, value)| format!("{} {} {value:e}\n", row + 1, col + 1)).collect();
+        format!("%%MatrixMarket matrix coordinate real general\n135 135 {}\n{lines}", entries.len())
+    };
+    let write = |is_kept: &dyn Fn(u32, u32) -> bool| {
+        let kept: Vec<_> = whole.iter().copied().filter(|(row, col, _)| is_kept(*row, *col)).collect();
+        assert!(kept.len() < whole.len());
+        place.write("K.mtx", market(&kept).as_bytes());
+    };
+    let right = examined(&place, ALL, ExitCode::Done);
+    write(&|row, col| row <= col || row % 7 != 0);
+    let found = examined(&place, ALL, ExitCode::CheckFailed);
+    assert!(finding(&found, "E-UNSYMMETRIC").contains("with the upper triangle for both"), "{found}");
+    assert_eq!(found["modes"], right["modes"]);
+    write(&|row, col| row >= col || row % 7 != 0);
+    let found = examined(&place, ALL, ExitCode::CheckFailed);
+    assert!(finding(&found, "E-UNSYMMETRIC").contains("with the lower triangle for both"), "{found}");
+    assert_eq!(found["modes"], right["modes"]);
+    // Neither triangle is the matrix: nothing is made of it, and nothing else is blamed.
+    write(&|row, col| row == col || (row + col) % 7 != if row > col { 0 } else { 1 });
+    let found = examined(&place, ALL, ExitCode::CheckFailed);
+    assert_eq!((findings(&found).len(), &found["modes"]), (1, &Value::Null), "{found}");
+    finding(&found, "E-UNSYMMETRIC");
+    write(&|row, col| row == col || ((row + col) % 2 == 0) == (row > col));
+    let found = examined(&place, ALL, ExitCode::Done);
+    assert_eq!(found["modes"], right["modes"]);
+    assert!(finding(&found, "").contains("each pair of rows is given once"), "{found}");
 }
 
 /// An error of reading is a finding like any other; a file that is not there is none of the pair.

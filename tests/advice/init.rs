@@ -4,7 +4,8 @@ use std::path::Path;
 
 use supel::cli::ExitCode;
 use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Region};
-use supel_models::transform::supported;
+use supel_models::transform::{rounded, supported};
+use supel_models::{Material, brick};
 use supel_testing::place::{Ended, Place, steel_brick, supel};
 
 fn init(place: &Place, rest: &str) -> Ended {
@@ -118,6 +119,76 @@ fn what_is_held_stays_held() {
     assert_eq!((job.fixed[0].dofs.as_ref().map(Vec::len), &job.fixed[1].dofs), (Some(2), &None));
     let held = supported(&steel_brick(), |(label, _)| label <= 9);
     reduced(&Place::with(&held), ALL);
+}
+
+/// Faces and groups with held nodes are no interfaces, be it one node, one direction or all of them.
+#[test]
+fn faces_and_groups_with_held_nodes() {
+    let mut model = steel_brick();
+    model.add_group("ROOT", |[x, _, _]| x == 0.0);
+    model.add_group("TIP", |[x, _, _]| x == 1.0);
+    let place = Place::with(&model);
+    let root: Vec<String> = model.groups["ROOT"].iter().map(ToString::to_string).collect();
+    let root = root.join(",");
+    for fix in [format!("a={}", model.groups["ROOT"][0]), format!("w={root}:ux"), format!("w={root}")] {
+        let (job, text) = proposed(&place, &format!("{ALL} --fix {fix}"));
+        let names: Vec<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
+        assert_eq!(names, ["plus-x"], "{fix}: {text}");
+        let _ = std::fs::remove_file(place.path("proposed.toml"));
+        reduced(&place, &format!("{ALL} --fix {fix}"));
+    }
+    // Held at both ends: the next axis has free faces, or all of them are held.
+    let tip = model.groups["TIP"][4];
+    let (job, text) = proposed(&place, &format!("{ALL} --fix a={}:ux --fix b={tip}", model.groups["ROOT"][4]));
+    assert!(job.interfaces.iter().all(|interface| !interface.name.ends_with("-x")), "{text}");
+    let _ = std::fs::remove_file(place.path("proposed.toml"));
+    reduced(&place, &format!("{ALL} --fix a={}:ux --fix b={tip}", model.groups["ROOT"][4]));
+    // As groups of a deck.
+    place.write("mesh.inp", deck(&model).as_bytes());
+    let files = "K.mtx M.mtx --dofs dofs.txt --nodes mesh.inp --fix a=1:uy";
+    let (job, text) = proposed(&place, files);
+    let names: Vec<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    assert_eq!(names, ["TIP"], "{text}");
+    assert!(text.contains("group ROOT: 9 nodes") && text.contains("1 node of it is held"), "{text}");
+    let _ = std::fs::remove_file(place.path("proposed.toml"));
+    reduced(&place, files);
+}
+
+/// Nodes and sets of a model as a deck.
+fn deck(model: &supel_models::Model) -> String {
+    let mut text = "*NODE\n".to_owned();
+    for (label, [x, y, z]) in model.labels.iter().zip(&model.nodes) {
+        text += &format!("{label}, {x:?}, {y:?}, {z:?}\n");
+    }
+    for (name, members) in &model.groups {
+        let members: Vec<String> = members.iter().map(ToString::to_string).collect();
+        text += &format!("*NSET, NSET={name}\n{}\n", members.join(",\n"));
+    }
+    text
+}
+
+/// Where digits are few, the page and the job say that a reduction may fail for them.
+#[test]
+fn few_digits_may_not_suffice() {
+    let slender = brick([5, 1, 1], [1.0, 0.1, 0.1], &Material::STEEL_SI);
+    let place = Place::with(&rounded(&slender, 5));
+    let (_, text) = proposed(&place, ALL);
+    let said = text.replace("\n# ", " ");
+    assert!(
+        said.contains("5 digits of the stiffness") && said.contains("until then checks of a reduction may fail"),
+        "{text}"
+    );
+}
+
+/// Units are written where one system alone fits, and left to the user where several do.
+#[test]
+fn units_are_written_where_nothing_else_fits() {
+    let sound = brick([4, 2, 2], [100.0, 31.0, 23.0], &Material { young: 210_000.0, poisson: 0.3, density: 7.85e-9 });
+    assert_eq!(proposed(&Place::with(&sound), ALL).0.model.units.as_deref(), Some("mm-t-s"));
+    let mixed = supel_models::transform::scaled(&sound, 1.0, 1e3);
+    let (job, text) = proposed(&Place::with(&mixed), ALL);
+    assert_eq!(job.model.units, None, "{text}");
+    assert!(text.contains("# units = the label of your system"), "{text}");
 }
 
 /// Groups become interfaces: a bore with its axis; a group of the whole model does not.

@@ -234,6 +234,10 @@ fn loads_come_along_and_notes_say_what_does_not() {
     }
     let told = export(&place, JOINED).expect(ExitCode::Done).out;
     assert!(told.contains("note: right has recovery, which the model of the whole does not have"), "{told}");
+    // An export without a job does not go beside the job of another.
+    export(&place, &format!("{JOINED} --fix left.end --fix right.end")).expect(ExitCode::Usage);
+    std::fs::remove_file(place.path("whole.job.toml")).expect("the job of the export before");
+    std::fs::remove_file(place.path("whole.loads.mtx")).unwrap_or_default();
     let nothing = export(&place, &format!("{JOINED} --fix left.end --fix right.end")).expect(ExitCode::Done).out;
     assert!(nothing.contains("note: there is no job that reduces it: no interface is left"), "{nothing}");
 }

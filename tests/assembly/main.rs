@@ -4,6 +4,7 @@ mod again;
 mod bounds;
 mod document;
 mod halves;
+mod many_jobs;
 mod nastran;
 mod refused;
 

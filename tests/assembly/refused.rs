@@ -66,6 +66,16 @@ fn names_that_are_not_there_are_refused_with_a_suggestion() {
 
 /// Rows have no directions in which a mass could act.
 #[test]
+fn an_interface_may_be_called_as_rows_are() {
+    let ends = format!("--interface rows:1=1 --interface rows=7 {METHOD}");
+    let mut assembly = assembly(reduced("left", &beams(&line()[..7]), &ends), right());
+    assembly.join("left.rows", "right.middle").expect("an interface");
+    assembly.fix("left.rows:1").expect("an interface");
+    let error = assembly.fix("left.rows:2").expect_err("no interface, no row");
+    assert_says(&error, &["left has no interface row `2`"]);
+}
+
+#[test]
 fn a_mass_on_rows_asks_for_a_dof_map() {
     let bare = Model { dofs: Vec::new(), ..beams(&line()[..7]) };
     let mut assembly = assembly(reduced("left", &bare, &format!("--interface r=rows:0,1,2,3,4,5 {METHOD}")), right());

@@ -158,7 +158,7 @@ fn supports_of_any_stiffness_are_no_local_frames() {
                 let askew = if is_flat { held.clone() } else { in_local_frames(&held, &axes_turned_by(0.7), |_| true) };
                 for (how, model) in [("along axes", held), ("askew", askew)] {
                     let Ok(model) = Checked::new(input(&model)) else { continue };
-                    let found = coordinates::compared(model, &[], &std::collections::HashSet::new());
+                    let found = coordinates::compared(model, &[], &supel::partition::TiedNodes::default());
                     let is_frame =
                         matches!(&found, Err(error) if error.to_string().contains("along axes of their own"));
                     assert!(!is_frame, "{name}, {n_springs} springs of 1e{exponent} {how}: {:?}", found.err());

@@ -11,10 +11,9 @@ mod table;
 mod thin;
 mod told;
 
-use std::collections::HashSet;
-
 use supel::error::Result;
 use supel::model::Model;
+use supel::partition::TiedNodes;
 use supel_testing::{chain, place};
 
 /// The nodes that rigid patches tie.
@@ -27,9 +26,9 @@ enum Ties {
 /// A model whose coordinates were compared with its stiffness.
 fn compared(model: Model, ties: Ties) -> Result<Model> {
     let labels = || model.dofs.iter().flatten().flatten().map(|dof| dof.node);
-    let tied: HashSet<i64> = match ties {
-        Ties::All => labels().collect(),
-        Ties::None => HashSet::new(),
+    let tied = match ties {
+        Ties::All => TiedNodes { rigid: labels().collect(), ..TiedNodes::default() },
+        Ties::None => TiedNodes::default(),
     };
     supel::coordinates::compared(model, &[], &tied)
 }

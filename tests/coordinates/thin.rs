@@ -2,6 +2,7 @@
 
 use supel::error::Error;
 use supel::model::{CoordinateFit, Model as Checked};
+use supel::partition::TiedNodes;
 use supel_models::transform::supported;
 use supel_models::{Inertia, Material, Model, Section, SplitMix64, brick, frame};
 
@@ -92,7 +93,8 @@ fn coordinates_of_another_state_count_where_patches_tie() {
     let tied_at = |x: f64| {
         let at = |place: &[f64; 3]| (place[0] - x).abs() < 1e-9;
         let labels = wavy.labels.iter().zip(&wavy.nodes).filter(|(_, place)| at(place)).map(|(label, _)| *label);
-        supel::coordinates::compared(Checked::new(input(&wavy)).expect("a model"), &[], &labels.collect())
+        let tied = TiedNodes { rigid: labels.collect(), ..TiedNodes::default() };
+        supel::coordinates::compared(Checked::new(input(&wavy)).expect("a model"), &[], &tied)
     };
     let found = tied_at(1.0).map(|model| model.fit);
     assert!(matches!(&found, Err(Error::CoordinatesDoNotFit { .. })), "{found:?}");

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel::export::{FORMATS, Names};
 use supel_runtime::{Superelement, Verdict};
 use supel_testing::place::{Place, supel};
 
@@ -154,4 +155,25 @@ fn what_cannot_be_exported() {
     supel(&["export", &place.text("x.supel")]).expect(ExitCode::Usage);
     let ended = export(&place, "op4", &["--output", &place.text("nowhere/x")]).expect(ExitCode::Io);
     assert!(ended.err.contains("error[E-FOLDER]"), "{}", ended.err);
+}
+
+/// A job of an export before would reduce the matrices of this one.
+#[test]
+fn nothing_is_exported_beside_files_of_another_export() {
+    let place = reduced("herting", "");
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    // Over its own files an export goes.
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    let before = std::fs::read(place.path("x.stiffness.mtx")).expect("a file");
+    let [k, m, x] = ["K.mtx", "M.mtx", "x.supel"].map(|name| place.text(name));
+    let by_rows = ["--interface", "foot=rows:0,1,2,30,31,32,120,121,122", "--method", "guyan", "-o", &x];
+    supel(&[&["reduce", "--stiffness", &k, "--mass", &m][..], &by_rows].concat()).expect(ExitCode::Done);
+    let ended = export(&place, "matrix-market", &[]).expect(ExitCode::Usage);
+    assert!(ended.err.contains("E-EXPORT-LEFT") && ended.err.contains("x.gravity.mtx (and"), "{}", ended.err);
+    assert!(std::fs::read(place.path("x.stiffness.mtx")).expect("a file") == before, "something was written");
+    for format in FORMATS {
+        let names = Names::starting_with(&place.path("y"));
+        let files = format.files(&reduced("herting", "").superelement("x.supel"), &names).expect("files");
+        assert!(files.iter().all(|file| format.endings().contains(&file.ending)), "{}", format.name());
+    }
 }

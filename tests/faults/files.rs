@@ -23,7 +23,7 @@ impl Case {
     fn new() -> Self {
         let place = Place::with(&spring(12, Ends::Free));
         std::fs::create_dir(place.path("out")).expect("a folder");
-        let mut args = vec!["reduce".to_owned()];
+        let mut args = vec!["reduce".to_owned(), "--force".to_owned()];
         args.extend(place.matrix_flags());
         args.extend("--interface ends=rows:0,11 --method craig-bampton --threads 1".split(' ').map(str::to_owned));
         for (flag, name) in [("--output", "x.supel"), ("--html", "x.html"), ("--junit", "x.xml")] {

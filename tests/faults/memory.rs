@@ -92,7 +92,7 @@ fn texts(args: &[String]) -> Vec<&str> {
 }
 
 fn reducing(place: &Place, model: Vec<String>, rest: &str) -> Vec<String> {
-    let mut args = vec!["reduce".to_owned()];
+    let mut args = vec!["reduce".to_owned(), "--force".to_owned()];
     args.extend(model);
     args.extend(
         ["--output", "--html", "--junit"]
@@ -119,7 +119,8 @@ fn reduce_without_memory() {
     assert!(n_small >= 36 && n_large >= 27 && n_for_good == 20, "{n_small} of 40, {n_large} of 30, {n_for_good} of 20");
 }
 
-/// With nodes in HDF5, which a child process reads first: neither it nor its parent takes a lack of memory for a damaged file.
+/// With nodes in HDF5, which a child process reads first: neither it nor its parent takes a lack of memory for a damaged file, but where
+/// the library crashes of it.
 #[cfg(feature = "hdf5")]
 #[test]
 fn reduce_from_hdf5_without_memory() {
@@ -137,11 +138,13 @@ fn reduce_from_hdf5_without_memory() {
         let ended = run(&args, &calls, at, Mode::Once);
         let what = format!("allocation {at} of {n_calls}: {:?} {}", ended.code, ended.err);
         match ended.code {
-            Some(3) => assert!(ended.err.contains("error[E-GROUP]"), "{what}"),
+            Some(3) if ended.err.contains("error[E-GROUP]") => {}
             Some(6) => n_without += 1,
             // The library recurses until its stack ends where one of some two hundred allocations of its own start fails. They are
             // made from memory that the program has asked for before, so that only a test has them fail. Where one of a few others
-            // fails, it uses what it did not get. Nothing is being written yet.
+            // fails, it uses what it did not get: in the child, where a crash looks like that of a damaged file, or here. Nothing is being
+            // written yet.
+            Some(3) if ended.err.contains("or memory that ran out within the library") => n_crashed += 1,
             None if ended.err.contains("overflowed its stack") || ended.err.is_empty() => n_crashed += 1,
             _ => panic!("{what}"),
         }
@@ -176,7 +179,7 @@ fn reduce_from_hdf5_under_a_limit() {
     let (job, program) = (place.text("job.toml"), assert_cmd::cargo::cargo_bin!("supel"));
     let mut n_done = 0;
     for mib in (40..400).step_by(15) {
-        let script = format!("ulimit -v {}; exec \"$0\" reduce \"$1\" --threads 2 --quiet", mib << 10);
+        let script = format!("ulimit -v {}; exec \"$0\" reduce \"$1\" --force --threads 2 --quiet", mib << 10);
         let ended =
             std::process::Command::new("sh").args(["-c", &script]).arg(program).arg(&job).output().expect("a shell");
         let err = String::from_utf8_lossy(&ended.stderr);
@@ -192,14 +195,16 @@ fn reduce_from_hdf5_under_a_limit() {
 }
 
 #[test]
-fn verify_and_inspect_without_memory() {
+fn verify_inspect_and_a_run_without_work_without_memory() {
     let place = Place::with(&spring(30, Ends::Free));
     let job = "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\n[[interface]]\nname = \"ends\"\nnodes = { rows = [0, 29] }\n\
                [reduction]\nmethod = \"craig-bampton\"\nmodes = { count = 3 }\n[write]\nsuperelement = \"a.supel\"\n";
     place.write("job.toml", job.as_bytes());
     crate::place::supel(&["reduce", &place.text("job.toml"), "--threads", "1"]).expect(supel::cli::ExitCode::Done);
     let (file, job) = (place.text("a.supel"), place.text("job.toml"));
-    let commands: [&[&str]; 4] = [
+    let commands: [&[&str]; 5] = [
+        // It is up to date.
+        &["reduce", &job, "--threads", "1"],
         &["inspect", &file],
         &["inspect", &file, "--json"],
         &["verify", &file, "--threads", "1"],

@@ -25,7 +25,7 @@ fn without_reader(args: &[&str]) -> (Option<i32>, String) {
 /// A chain with its superelement.
 fn place() -> (Place, Vec<String>) {
     let place = Place::with(&spring(12, Ends::Free));
-    let mut args = vec!["reduce".to_owned(), "--output".to_owned(), place.text("x.supel")];
+    let mut args = vec!["reduce".to_owned(), "--force".to_owned(), "--output".to_owned(), place.text("x.supel")];
     args.extend(place.matrix_flags());
     args.extend(
         "--interface ends=rows:0,11 --method craig-bampton --modes 2 --threads 1".split(' ').map(str::to_owned),

@@ -125,11 +125,13 @@ fn modes([k, m]: [&Mat<f64>; 2]) -> (Vec<f64>, Mat<f64>) {
         a
     };
     let standard = half(half(k.clone()).transpose().to_owned());
-    let sum = Mat::from_fn(l.nrows(), l.nrows(), |i, j| 0.5 * (standard[(i, j)] + standard[(j, i)]));
+    // Couplings below an absolute size are dropped: only a matrix of size one keeps its digits.
+    let unit = standard.norm_max();
+    let sum = Mat::from_fn(l.nrows(), l.nrows(), |i, j| 0.5 / unit * (standard[(i, j)] + standard[(j, i)]));
     let eigen = sum.self_adjoint_eigen(faer::Side::Lower).expect("eigenvalues");
     let mut shapes = eigen.U().to_owned();
     faer::linalg::triangular_solve::solve_upper_triangular_in_place(l.transpose(), shapes.as_mut(), faer::Par::Seq);
-    (eigen.S().column_vector().iter().copied().collect(), shapes)
+    (eigen.S().column_vector().iter().map(|value| value * unit).collect(), shapes)
 }
 
 /// The modes of a superelement with its interface free.

@@ -19,7 +19,7 @@ fn files_of_matrices_that_cannot_be_taken() {
         (banner("general", n, "2 1 1\n1 2 1\n"), "E-MATRIX-KIND"),
         (banner("general", n, "2 1 1\n"), "E-MATRIX-KIND"),
         (banner("general", n, "2 1 1\n1 2 -1.0000000000000002\n"), "E-MATRIX-KIND"),
-        (banner("skew-symmetric", n, "2 1 1\n3 3 1\n"), "E-MATRIX-KIND"),
+        (banner("skew-symmetric", n, "2 1 1\n3 3 1\n"), "E-SKEW-DIAGONAL"),
         (banner("skew-symmetric", n, "2 1 1\n1 2 -1\n"), "E-DOUBLE-TRIANGLE"),
         (banner("skew-symmetric", n - 1, "2 1 1\n"), "E-MATRIX-ROWS"),
         (banner("skew-symmetric", n, "2 1 0\n"), "E-MATRIX-NOTHING"),
@@ -90,16 +90,18 @@ fn modal_damping_of_the_full_model_is_no_damper_to_the_ground() {
     let edges: Vec<[usize; 2]> = (1..12).map(|node| [node - 1, node]).chain([[0, 11], [3, 10]]).collect();
     let beams = frame(&nodes, &edges, &Section::round(0.015), &Material::STEEL_SI, Inertia::Consistent);
     let solid = brick([4, 2, 1], [0.31, 0.13, 0.05], &Material::STEEL_SI);
+    // The terms of its entries cancel by symmetry, and some modes leave rows that hardly take part.
+    let plate = brick([6, 6, 1], [0.6, 0.6, 0.006], &Material::STEEL_SI);
     let on_nodes = r#"{ name = "a", nodes = [1, 5, 11] }"#;
     let damping = "[[matrix]]\nname = \"modal\"\nkind = \"damping\"\nfile = \"C.mtx\"\n";
-    for (what, model) in [("beams", beams), ("solid", solid)] {
+    for (what, model, n_damped) in [("beams", beams, usize::MAX), ("solid", solid, usize::MAX), ("plate", plate, 20)] {
         let case = Case::new(model);
         let n = case.model.n;
         let mass = dense(n, &case.model.mass);
         let (lambda, shapes) = modes([&dense(n, &case.model.stiffness), &mass]);
         let momenta = &mass * shapes;
         let made = |i: usize, j: usize| -> f64 {
-            (6..n).map(|k| momenta[(i, k)] * 0.04 * lambda[k].max(0.0).sqrt() * momenta[(j, k)]).sum()
+            (6..n).take(n_damped).map(|k| momenta[(i, k)] * 0.04 * lambda[k].max(0.0).sqrt() * momenta[(j, k)]).sum()
         };
         let all = || (0..n).flat_map(|i| (0..=i).map(move |j| (i, j)));
         let entries: Entries = all().map(|(i, j)| (i as u32, j as u32, made(i, j))).collect();

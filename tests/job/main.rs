@@ -184,9 +184,9 @@ fn values_of_the_wrong_kind_are_located() {
     let at_28 = |to: &str| wrong("{ up_to_hz = 1000 }", to);
     insta::assert_snapshot!(wrong("stiffness = \"K.mtx.gz\"", ""), @"job.toml:2: `model.stiffness` is missing");
     insta::assert_snapshot!(wrong("\"herting\"", "\"hurting\""), @r#"job.toml:27: `reduction.method` is "hurting" – expected "craig-bampton", "herting", "rubin", "macneal", "mixed-interface", "guyan" or "mode-acceleration""#);
-    insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` has `count` and `up_to_hz` – expected exactly one of `count`, `up_to_hz` and `file`");
-    insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` is empty – expected exactly one of `count`, `up_to_hz` and `file`");
-    insta::assert_snapshot!(at_28("3"), @"job.toml:28: `reduction.modes` is 3 – expected a table with keys of count, file, up_to_hz");
+    insta::assert_snapshot!(at_28("{ up_to_hz = 1000, count = 4 }"), @"job.toml:28: `reduction.modes` has `count` and `up_to_hz` – expected exactly one of `count`, `up_to_hz`, `accept` and `file`");
+    insta::assert_snapshot!(at_28("{ }"), @"job.toml:28: `reduction.modes` is empty – expected exactly one of `count`, `up_to_hz`, `accept` and `file`");
+    insta::assert_snapshot!(at_28("3"), @"job.toml:28: `reduction.modes` is 3 – expected a table with keys of accept, count, file, up_to_hz");
     insta::assert_snapshot!(at_28("{ count = 3.5 }"), @"job.toml:28: `reduction.modes.count` is 3.5 – expected a whole number, zero or more");
     insta::assert_snapshot!(at_28("{ count = -4 }"), @"job.toml:28: `reduction.modes.count` is -4 – expected a whole number, zero or more");
     insta::assert_snapshot!(at_28("{ count = 99999999999999999999 }"), @"job.toml:28: `reduction.modes.count` is 99999999999999999999 – expected a whole number, zero or more");
@@ -202,7 +202,7 @@ fn values_of_the_wrong_kind_are_located() {
     insta::assert_snapshot!(wrong("{ ratio = 0.02 }", "0.02"), @"job.toml:34: `scene.damping` is 0.02 – expected a table with keys of ratio");
     insta::assert_snapshot!(wrong("[0, 500]", "[0]"), @"job.toml:32: `scene.band_hz` is a list of 1 – expected a list of 2");
     insta::assert_snapshot!(wrong("[write]", "[write"), @"job.toml:40: this is no TOML: unclosed table, expected `]`");
-    insta::assert_snapshot!(at_28("[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of count, file, up_to_hz");
+    insta::assert_snapshot!(at_28("[3, 4]"), @"job.toml:28: `reduction.modes` is a list – expected a table with keys of accept, count, file, up_to_hz");
     insta::assert_snapshot!(wrong("12.5]", "12.5, 0]"), @r#"job.toml:14: `interface[0].origin` is a list of 4 – expected "centroid", "area", "hole", "sphere" or a list of 3"#);
     insta::assert_snapshot!(wrong("\"none\"", "{ none = {} }"), @r#"job.toml:37: `run.certify` is a table – expected "none", "count" or "full""#);
     insta::assert_snapshot!(message(&with("/model/dofs", Value::Null)), @"job.json: `model.dofs` is null – expected a value, or the key left out");

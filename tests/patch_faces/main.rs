@@ -368,6 +368,34 @@ fn faces_of_volumes_look_outwards() {
     }
 }
 
+/// What nodes have of faces drawn out of shape, by hand: (4 T_i + 2 T_{i±1} + T_{i+2}) / 18 of a face with the corner triangles T_i. Their
+/// weighted mean is the centroid of the faces.
+#[test]
+fn areas_of_nodes_of_distorted_faces() {
+    let mut mesh = Mesh::of(Shape::Brick, 8, Order::BottomTopUpright);
+    let moved = mesh.points.iter_mut().find(|point| **point == [1.0, 0.0, 0.0]).expect("a node");
+    moved[0] = 1.5;
+    let expected = |[x, y, _]: Point| match (x, y) {
+        (0.0, 0.0) => 2.0 / 3.0,
+        (1.5, 0.0) | (1.0, 2.0) => 1.5,
+        (3.0, 0.0) => 5.0 / 6.0,
+        (0.0, 2.0) => 7.0 / 12.0,
+        (3.0, 2.0) => 11.0 / 12.0,
+        _ => panic!("no node below at {x}, {y}"),
+    };
+    let found = med(&mesh, &[("HE8", columns(&rows(&mesh.cells, 1), 8))]).faces(&mesh.patch());
+    let Ok([only]) = found.as_deref() else { panic!("{found:?}") };
+    let Faces::Known { areas, centroid, .. } = &only.faces else { panic!("{only:?}") };
+    let places: Vec<Point> = mesh.patch().list[0].nodes.iter().map(|node| mesh.points[*node]).collect();
+    for (place, area) in places.iter().zip(areas) {
+        assert!((area - expected(*place)).abs() <= ROUNDING, "{place:?}: {area}");
+    }
+    for axis in 0..3 {
+        let mean = places.iter().zip(areas).map(|(place, area)| place[axis] * area).sum::<f64>() / 6.0;
+        assert!((mean - centroid[axis]).abs() <= ROUNDING, "{mean} {centroid:?}");
+    }
+}
+
 /// Patches may have nodes in common: each has its own faces.
 #[test]
 fn a_node_may_belong_to_several_patches() {

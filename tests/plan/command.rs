@@ -65,6 +65,20 @@ fn what_the_plan_says_is_what_the_run_does() {
     }
 }
 
+/// A load without its residual vector has none, and a motion that the held interface does not let pass is elastic.
+#[test]
+fn coordinates_are_counted_as_the_run_makes_them() {
+    const MIXED: &str = r#"method = "mixed-interface", held = ["root"], modes = { up_to_hz = 2500 }"#;
+    const FORCE: &str = "[[load]]\nname = \"f\"\nnodes = [18]\nforce = [0, 1, 2]\n";
+    const FORCE_ALONE: &str = "[[load]]\nname = \"f\"\nnodes = [18]\nforce = [0, 1, 2]\nresidual = false\n";
+    for (reduction, rest) in [(MIXED, ""), (CRAIG_BAMPTON, FORCE_ALONE), (CRAIG_BAMPTON, FORCE)] {
+        let case = Case { rest, ..Case::new(PATCHES, reduction, "") };
+        let (plan, made) = (planned(&case, &[]), case.made());
+        assert_eq!(plan["answer"]["n_coordinates"], made.file.n_coordinates(), "{reduction} {rest}");
+        assert_eq!(plan["modes"]["count"], made.file.tensors().frequencies.len(), "{reduction}");
+    }
+}
+
 #[test]
 fn stages_that_a_scene_never_asks_for_are_skipped_by_their_rules() {
     let whole = planned(&Case::new(PATCHES, HERTING, ""), &[]);

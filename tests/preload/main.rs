@@ -1,6 +1,7 @@
 //! Components whose stiffness is the tangent of a preloaded state: springs under tension between points that nodes carry.
 
 mod network;
+mod patches;
 mod refused;
 mod theory;
 mod told;

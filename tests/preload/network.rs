@@ -142,7 +142,7 @@ impl Spring {
 }
 
 /// exp(θ) a, by Rodrigues.
-fn rotated(theta: Vector, a: Vector) -> Vector {
+pub(crate) fn rotated(theta: Vector, a: Vector) -> Vector {
     let angle = length(theta);
     if angle == 0.0 {
         return a;

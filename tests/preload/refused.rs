@@ -4,7 +4,7 @@ use supel::cli::ExitCode;
 use supel_models::Model;
 use supel_testing::place::Ended;
 
-use crate::network::{Network, Nodes, tower};
+use crate::network::{Network, Nodes, tied_tower, tower};
 use crate::{ENDS, PRELOADED, place_of, reduced};
 
 const STRAIN: f64 = 2e-3;
@@ -153,24 +153,41 @@ fn forces_that_rounding_hides() {
     assert_says(&run(&network, &network.forces, (PRELOADED, ENDS)), ExitCode::InputData, &["E-PRELOAD-NONE"]);
 }
 
-/// The arm of a force turns with what ties it.
+/// The arm of a force turns with what ties it: a mean motion and a row of G do not say how.
 #[test]
 fn forces_at_tied_nodes() {
     let network = tower(Nodes::Bodies, STRAIN);
-    for coupling in ["rigid", "average"] {
-        let patch = format!(r#"{{ name = "ends", nodes = [1, 2, 3, 4], coupling = "{coupling}" }}"#);
-        let words = ["E-PRELOAD-TIED", "node 1 ux has an internal force", "a patch ties it", "coupling = \"direct\""];
-        assert_says(&run(&network, &network.forces, (PRELOADED, &patch)), ExitCode::InputData, &words);
-    }
+    let patch = r#"{ name = "ends", nodes = [1, 2, 3, 4], coupling = "average" }"#;
+    let words = ["E-PRELOAD-TIED", "node 1 ux has an internal force", "an average ties it", "coupling = \"direct\""];
+    assert_says(&run(&network, &network.forces, (PRELOADED, patch)), ExitCode::InputData, &words);
+    let constrained = |network: &Network, interface: &str, rows: &str| {
+        let says = format!("{PRELOADED}, constraints = \"G.mtx\", constraints_to_ground = \"accept\"");
+        let place = place_of(network, &network.forces, (&says, interface), HERTING);
+        place.write("G.mtx", format!("%%MatrixMarket matrix coordinate real general\n1 72 {rows}").as_bytes());
+        reduced(&place)
+    };
     // u_1z − u_2z + (x_2 − x_1) r_1y = 0.
-    let place = place_of(
-        &network,
-        &network.forces,
-        (&format!("{PRELOADED}, constraints = \"G.mtx\""), r#"{ name = "ends", nodes = [11, 12] }"#),
-        HERTING,
-    );
-    place.write("G.mtx", b"%%MatrixMarket matrix coordinate real general\n1 72 3\n1 3 1\n1 9 -1\n1 5 -1\n");
-    assert_says(&reduced(&place), ExitCode::InputData, &["E-PRELOAD-TIED", "a constraint ties it"]);
+    let ended = constrained(&network, r#"{ name = "ends", nodes = [11, 12] }"#, "3\n1 3 1\n1 9 -1\n1 5 -1\n");
+    assert_says(&ended, ExitCode::InputData, &["E-PRELOAD-TIED", "a constraint ties it"]);
+    // Of the nodes below the first one alone has a force, of the others the last.
+    let network = tied_tower(Nodes::Bodies, 0.1);
+    let patch = r#"{ name = "foot", nodes = [1, 2, 3, 4], coupling = "rigid", dofs = ["ux", "uy", "uz"] }"#;
+    let ended = constrained(&network, patch, "2\n1 69 1\n1 9 -1\n");
+    assert_says(&ended, ExitCode::InputData, &["E-PRELOAD-TIED", "node 12 uz", "a constraint ties it"]);
+    let ended = constrained(&network, patch, "2\n1 9 1\n1 15 -1\n");
+    assert_says(&ended, ExitCode::InputData, &["E-PRELOAD-DEPENDENT", "interface foot r", "out of model.constraints"]);
+}
+
+/// A carrier that moves a patch without turning it.
+#[test]
+fn a_patch_that_turns_otherwise_than_its_carrier() {
+    let network = tower(Nodes::Bodies, STRAIN);
+    let interface = r#"{ name = "foot", nodes = [1, 2, 3, 4], coupling = "rigid", dofs = ["ux", "uy", "uz"] },
+        { name = "tip", nodes = [11, 12] }]
+        scene.prescribed = [{ name = "table", interfaces = ["foot", "tip"] }"#;
+    let words =
+        ["E-PRELOAD-CARRIED", "\"foot\" have internal forces", "\"table\" moves its node", "all six directions"];
+    assert_says(&run(&network, &network.forces, (PRELOADED, interface)), ExitCode::InputData, &words);
 }
 
 /// Compression turns the component over where nothing holds it; where something does, it is a structure like others.

@@ -55,7 +55,7 @@ fn interface_rows(network: &Network) -> Vec<usize> {
 }
 
 /// The superelement is right by its own content and against its model, says what it is, and makes no component.
-fn assert_verified(made: &Made) {
+pub(crate) fn assert_verified(made: &Made) {
     for args in [&["verify"][..], &["verify", "--job"]] {
         let (file, job) = (made.place.text("x.supel"), made.place.text("job.toml"));
         let mut args = args.to_vec();

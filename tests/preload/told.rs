@@ -1,11 +1,11 @@
 //! What report, page, `inspect` and `verify` say of a preloaded state, and what assemblies make of it.
 
 use supel::cli::ExitCode;
-use supel_runtime::{Flag, Superelement};
+use supel_runtime::{Flag, MassProperties, Superelement};
 use supel_testing::pencil::{eigen, matrices, part};
-use supel_testing::place::supel;
+use supel_testing::place::{supel, supel_as_typed};
 
-use crate::network::{Nodes, tower};
+use crate::network::{Network, Nodes, tower};
 use crate::{ENDS, PRELOADED, made, place_of, reduced};
 
 const STRAIN: f64 = 2e-3;
@@ -51,12 +51,17 @@ fn a_file_without_its_flag_is_noticed() {
 #[test]
 fn other_forces_are_another_input() {
     let made = made(&tower(Nodes::Points, STRAIN), ENDS, HERTING);
+    let reduced_as_typed = || supel_as_typed(supel::PIPELINE, &["reduce", &made.place.text("job.toml")]);
+    let unchanged = reduced_as_typed();
+    assert!(unchanged.out.contains("x.supel is up to date"), "{}{}", unchanged.out, unchanged.err);
     let forces = String::from_utf8(made.place.bytes("q.mtx")).expect("UTF-8");
     made.place.write("q.mtx", format!("{forces}\n").as_bytes());
     let ended = supel(&["verify", "--job", &made.place.text("job.toml"), &made.place.text("x.supel")]);
     // Another file may hold the same forces, so that this is a warning as it is for every input.
     assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
     assert!(ended.out.contains("worst at internal_forces"), "{}", ended.out);
+    let changed = reduced_as_typed();
+    assert!(changed.err.contains("the input \"internal_forces\" has changed"), "{}", changed.err);
 }
 
 /// What the preload costs a rotation is no spring to the ground.
@@ -74,14 +79,105 @@ fn preload_is_not_taken_for_a_support() {
 #[test]
 fn an_expected_mass_is_compared() {
     let network = tower(Nodes::Bodies, STRAIN);
-    let centre = [0, 1, 2].map(|i| network.model.nodes.iter().map(|node| node[i] / 12.0).sum::<f64>());
+    let centre = centre(&network);
     for (mass, code) in [(24.0, ExitCode::Done), (25.0, ExitCode::CheckFailed)] {
         let says = format!("{PRELOADED}, expect = {{ mass = {mass:?}, cg = {centre:?} }}");
         let place = place_of(&network, &network.forces, (&says, ENDS), HERTING);
         let ended = reduced(&place);
         assert_eq!(ended.code, code, "{}{}", ended.out, ended.err);
         assert!(!ended.err.contains("W-EXPECT-UNCHECKED"), "{}", ended.err);
+        if code == ExitCode::Done {
+            let job = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
+            place.write("heavier.toml", job.replace("mass = 24.0", "mass = 25.0").as_bytes());
+            let ended = supel(&["verify", "--job", &place.text("heavier.toml"), &place.text("x.supel")]);
+            assert!(ended.out.contains("expected 25"), "{}{}", ended.out, ended.err);
+        }
     }
+}
+
+/// The mean of the nodes, whose masses are alike.
+fn centre(network: &Network) -> [f64; 3] {
+    [0, 1, 2].map(|i| network.model.nodes.iter().map(|node| node[i] / 12.0).sum::<f64>())
+}
+
+/// Mass, centre and inertia are those of all rows, and the loads of gravity what the model has.
+#[test]
+fn mass_properties_and_loads_of_gravity() {
+    for nodes in [Nodes::Points, Nodes::Bodies] {
+        let network = tower(nodes, STRAIN);
+        let made = made(&network, ENDS, HERTING);
+        let found = made.file.metadata().model.mass_properties.expect("of one body");
+        let about = centre(&network);
+        // Twelve masses of two, and the rotary inertia of nodes with rotations.
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let of_node = |at: &[f64; 3]| {
+                let d = [0, 1, 2].map(|axis| at[axis] - about[axis]);
+                2.0 * (if i == j { d.iter().map(|x| x * x).sum() } else { 0.0 } - d[i] * d[j])
+            };
+            let own = if i == j && nodes == Nodes::Bodies { 12.0 * (0.08 + 0.01 * i as f64) } else { 0.0 };
+            let expected = own + network.model.nodes.iter().map(of_node).sum::<f64>();
+            assert!((found.inertia[i][j] - expected).abs() < 1e-12 * 100.0, "{:?} {expected}", found.inertia);
+        }
+        assert!((found.mass - 24.0).abs() < 1e-12, "{}", found.mass);
+        assert!((0..3).all(|i| (found.center_of_mass[i] - about[i]).abs() < 1e-13), "{:?}", found.center_of_mass);
+        assert_eq!(made.report["body"]["model"]["mass_properties"]["mass"].as_f64(), Some(found.mass));
+        // A unit translation of the interface carries the whole mass.
+        let gravity = made.file.tensors().gravity.clone().expect("loads of gravity");
+        let n = network.n_directions;
+        for (axis, direction) in (0..3).flat_map(|axis| (0..3).map(move |direction| (axis, direction))) {
+            let work: f64 = (0..4).map(|node| gravity[(n * node + direction, axis)]).sum();
+            let expected = if axis == direction { 24.0 } else { 0.0 };
+            assert!((work - expected).abs() < 1e-10, "{axis} {direction}: {work}");
+        }
+        // With all nodes among the coordinates they are the masses themselves.
+        let all = crate::made(
+            &network,
+            r#"{ name = "all", nodes = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12] }"#,
+            r#"method = "guyan""#,
+        );
+        let gravity = all.file.tensors().gravity.clone().expect("loads of gravity");
+        for (row, axis) in (0..gravity.rows()).flat_map(|row| (0..3).map(move |axis| (row, axis))) {
+            assert_eq!(gravity[(row, axis)], if row % n == axis { 2.0 } else { 0.0 }, "{row} {axis}");
+        }
+    }
+}
+
+/// A change to what a preloaded file says of its mass is noticed: of mass and gravity by the file itself, of the rest by the model.
+#[test]
+fn a_changed_mass_is_noticed() {
+    let made = made(&tower(Nodes::Bodies, STRAIN), ENDS, HERTING);
+    let (sound, job) = (made.place.text("x.supel"), made.place.text("job.toml"));
+    let properties = || made.file.metadata().model.mass_properties.expect("mass properties");
+    let altered = |change: &dyn Fn(&mut supel_runtime::Tensors, &mut supel_runtime::Metadata)| {
+        let (mut tensors, mut metadata) = (made.file.tensors().clone(), made.file.metadata().clone());
+        change(&mut tensors, &mut metadata);
+        let path = made.place.path("altered.supel");
+        Superelement::new(tensors, metadata).expect("a superelement").write(&path).expect("written");
+        [vec!["verify", "altered.supel"], vec!["verify", "--job", "job.toml", "altered.supel"]].map(|args| {
+            let args: Vec<String> =
+                args.into_iter().map(|arg| if arg.contains('.') { made.place.text(arg) } else { arg.into() }).collect();
+            supel(&args.iter().map(String::as_str).collect::<Vec<_>>())
+        })
+    };
+    supel(&["verify", "--job", &job, &sound]).expect(ExitCode::Done);
+    let heavier =
+        altered(&|_, metadata| metadata.model.mass_properties = Some(MassProperties { mass: 24.1, ..properties() }));
+    assert!(heavier.iter().all(|ended| ended.code == ExitCode::CheckFailed && ended.out.contains("M-16")));
+    let centre = MassProperties { center_of_mass: [0.5, 0.4, 0.8], ..properties() };
+    let [alone, with_job] = altered(&|_, metadata| metadata.model.mass_properties = Some(centre));
+    assert_eq!(alone.code, ExitCode::Done, "{}", alone.out);
+    assert!(alone.out.contains("model.mass_properties"), "it says that nothing vouches for it: {}", alone.out);
+    assert!(with_job.code == ExitCode::CheckFailed && with_job.out.contains("M-16"), "{}", with_job.out);
+    let without = altered(&|_, metadata| metadata.model.mass_properties = None);
+    assert_eq!(without[1].code, ExitCode::CheckFailed, "{}", without[1].out);
+    let lighter = altered(&|tensors, _| {
+        let gravity = tensors.gravity.clone().expect("loads");
+        tensors.gravity =
+            Some(supel_runtime::Matrix::from_fn(gravity.rows(), 3, |i, j| gravity[(i, j)] * (1.0 - 1e-5)));
+    });
+    assert!(lighter.iter().all(|ended| ended.code == ExitCode::CheckFailed && ended.out.contains("M-18")));
+    let without = altered(&|tensors, _| tensors.gravity = None);
+    assert!(without.iter().all(|ended| ended.code == ExitCode::CheckFailed && ended.out.contains("gravity")));
 }
 
 /// Linear assemblies take a preloaded component, free and held.

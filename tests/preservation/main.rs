@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod boundaries;
+mod chosen;
 mod faults;
 mod oracle;
 mod policy;

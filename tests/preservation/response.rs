@@ -1,6 +1,7 @@
 //! Frequency response: the iteration against dense elimination, the errors against their definition.
 
 use supel::verification::preservation::Preservation;
+use supel_models::{Inertia, Material, Section, frame};
 
 use crate::chain::{Twin, direct, partition, rigid_group};
 use crate::oracle::{Dense, decibel, reduced};
@@ -158,5 +159,34 @@ fn no_error_between_the_samples_is_larger_than_the_one_told() {
             assert!(scanned <= response.worst_db + slack, "{method}: {scanned} dB, told {} dB", response.worst_db);
             assert!((error(response.worst_at_hz) - response.worst_db).abs() <= slack, "{method}: not the error there");
         }
+    }
+}
+
+/// An octahedron of beams has pairs of modes at one frequency. Where such a pair splits a little in one of the models, weak pairs of dofs pass by
+/// zero within a fraction of the width of a resonance.
+#[test]
+fn antiresonances_narrower_than_the_damping_are_found() {
+    const POINTS: usize = 1000;
+    let square = [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 0.5, 0.0]];
+    let nodes = [&square[..], &[[0.25, 0.25, 0.4], [0.25, 0.25, -0.4]]].concat();
+    let sides = (0..4).map(|i| [i, (i + 1) % 4]);
+    let edges: Vec<[usize; 2]> = sides.chain((0..4).flat_map(|i| [[i, 4], [i, 5]])).collect();
+    let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    let files = Files::new(model, vec![direct("a", &[1]), direct("b", &[4])]);
+    let (full, dofs) = full(&files);
+    let first = full.modes().lambda[6].sqrt() / std::f64::consts::TAU;
+    let leading: Vec<usize> = (0..dofs.len()).collect();
+    for (ratio, share) in [(0.0074, 1.5), (0.0074, 3.0), (0.01, 3.0)] {
+        let scene =
+            format!("damping = {{ ratio = {ratio} }}\nband_hz = [{}, {}]\nboundaries = []", 0.9 * first, 1.1 * first);
+        let outcome = files.reduce("craig-bampton", &format!("up_to_hz = {}", share * first), &scene);
+        let response = response(&outcome.report.body.preservation);
+        let (reduced, eta) = (reduced(&outcome.superelement), 2.0 * ratio);
+        let error = |hz: f64| decibel(&full.response(&dofs, hz, eta), &reduced.response(&leading, hz, eta));
+        let at = |i: usize| first * (0.9 + 0.2 * i as f64 / (POINTS - 1) as f64);
+        let (top, scanned) =
+            (0..POINTS).map(|i| (at(i), error(at(i)))).fold((0.0, 0.0), |top, at| if at.1 > top.1 { at } else { top });
+        let slack = 8.7 * rounding(&full) * (1.0 + scanned) + 1e-3 * scanned;
+        assert!(scanned <= response.worst_db + slack, "{ratio}: {scanned} dB at {top} Hz, told {}", response.worst_db);
     }
 }

@@ -115,6 +115,9 @@ fn ms_04_negative_and_indefinite_masses_are_refused() {
         let error =
             Case::new(&pair, &end).method(method).refused(&["indefinite", "row 5 (node 5 ux), column 4 (node 4 ux)"]);
         assert!(matches!(error, Error::IndefiniteMass { energy, .. } if (energy + 0.5).abs() < 1e-12), "{error}");
+        // A dof without mass and a coupling: no digits make that of a mass that is there.
+        let bare = with(&[(3, 3, 0.0), (3, 4, 0.1), (4, 3, 0.1)]);
+        Case::new(&bare, &end).method(method).refused(&["indefinite", "has no mass and is coupled to"]);
         // Three masses of one with couplings of 0.8 between neighbours: only the three together show it, λ = 1 − 0.8 √2.
         let three = with(&[(3, 4, -0.8), (4, 3, -0.8), (4, 5, -0.8), (5, 4, -0.8)]);
         let error = Case::new(&three, &end).method(method).refused(&["indefinite", "row 5 (node 5 ux)"]);

@@ -87,6 +87,34 @@ fn heavy_frames_are_judged_alike_by_all_three() {
     assert!(n_passed >= 20, "{n_passed} of 30 without a warning of arithmetic or of too few modes");
 }
 
+/// A mass of up to 10⁸ times the frame on its interior is slower than the rest by as much: static answers of the full model are still found
+/// again, whatever the inertia in the factor that they start from.
+#[test]
+fn masses_that_the_frame_hardly_moves_fail_no_file() {
+    let mut n_done = 0;
+    for seed in 200..224 {
+        let mut random = SplitMix64::new(seed);
+        let model = slender(&mut random);
+        let n = model.nodes.len() as u64;
+        let mass = model.total_mass(0) * 10f64.powf(5.0 + 3.0 * random.uniform());
+        let model = carrying(&model, &[n as i64], mass);
+        let interface = format!(r#"{{ name = "a", nodes = [{}] }}"#, 1 + random.below(n - 2));
+        let method = ["guyan", "craig-bampton", "macneal", "mixed-interface"][seed as usize % 4];
+        let modes = if method == "guyan" { "" } else { ", modes = { count = 4 }" };
+        let held = if method == "mixed-interface" { r#", held = ["a"]"# } else { "" };
+        let place = Place::with(&model);
+        let reduction = format!(r#"method = "{method}"{modes}{held}"#);
+        place.write("job.toml", job(&mut random, &model, (&interface, &reduction)).as_bytes());
+        let what = format!("seed {seed}, {method}");
+        if supel(&["reduce", &place.text("job.toml"), "--quiet"]).code == ExitCode::Done {
+            let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
+            assert_eq!(ended.code, ExitCode::Done, "{what}:\n{}{}", ended.out, ended.err);
+            n_done += 1;
+        }
+    }
+    assert!(n_done >= 20, "{n_done} of 24");
+}
+
 /// Nodes of a walk at random with steps of these sizes.
 fn walk(random: &mut SplitMix64, n: usize, step: [f64; 3]) -> Vec<[f64; 3]> {
     let mut at = [0.0; 3];

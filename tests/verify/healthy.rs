@@ -119,6 +119,23 @@ fn two_bodies_with_a_hinge_or_a_ball_joint() {
             assert!(ended.out.contains("W-MECHANISM"), "{}", ended.out);
             passes(&place, &rest);
         }
+        mechanisms_that_are_meant(&place);
+    }
+}
+
+/// `model.mechanisms = "accept"` takes the warning away, which `--strict` refuses, and stands among the assumptions.
+#[track_caller]
+fn mechanisms_that_are_meant(place: &Place) {
+    let kept = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
+    let mut job: serde_json::Value = serde_json::from_str(&kept).expect("a job");
+    for (mechanisms, is_warned_of) in [("warn", true), ("accept", false)] {
+        job["model"]["mechanisms"] = mechanisms.into();
+        place.write("meant.json", job.to_string().as_bytes());
+        let ended = supel(&["reduce", &place.text("meant.json"), "--strict", "--allow-unverified"]);
+        assert_eq!(ended.out.contains("W-MECHANISM"), is_warned_of, "{}", ended.out);
+        let made = place.superelement("x.supel");
+        let assumptions = &made.metadata().validity.assumptions;
+        assert_eq!(assumptions.iter().any(|assumption| assumption.contains("without strain")), !is_warned_of);
     }
 }
 

@@ -225,6 +225,11 @@ fn what_the_file_says_of_itself() {
     fails(&place, "M-16 stated mass properties are those of M_F", &|_, metadata| {
         metadata.model.mass_properties.as_mut().expect("known").mass *= PER_MILLE;
     });
+    // A small product of inertia changed by a thousandth is a change of this size.
+    fails(&place, "M-16 stated mass properties are those of M_F", &|_, metadata| {
+        let properties = metadata.model.mass_properties.as_mut().expect("known");
+        properties.inertia[0][1] += 1e-8 * properties.inertia[0][0];
+    });
     fails(&place, "M-16 mass and centre are those expected", &|_, metadata| {
         metadata.job["model"]["expect"] = serde_json::json!({ "mass": 1.0 });
     });

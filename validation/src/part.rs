@@ -94,7 +94,7 @@ pub fn reduced(job: &Path) -> Result<Superelement> {
 /// # Errors
 /// The program cannot be started or fails; its file cannot be read.
 pub fn reduced_by_command(program: &Path, job: &Path) -> Result<Superelement> {
-    let output = Command::new(program).arg("reduce").arg(job).output()?;
+    let output = Command::new(program).arg("reduce").arg(job).arg("--force").output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
         return Err(format!("{} reduce {}: {}: {said}", program.display(), job.display(), output.status).into());

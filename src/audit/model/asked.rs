@@ -9,9 +9,9 @@ use faer::Mat;
 use super::full::Full;
 use super::interior::Interior;
 use crate::dense;
-use crate::eigen::{CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
+use crate::eigen::{CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, ShiftInvert, Wanted, elastic_modes};
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, SolveOperator, WholeCount, whole_count};
+use crate::factor::{Analysis, WholeCount, whole_count};
 use crate::job::{Boundary, Eigensolver, ReductionJob};
 use crate::modes::mode_wish;
 use crate::partition::Partition;
@@ -78,25 +78,25 @@ impl AskedModes {
         self.groups.iter().find(|group| group.contains(&mode)).map_or(0.0, of)
     }
 
-    /// Modes with the interface free, or some of it, by a factor of K − σM of the dofs that are free; `rigid` are the motions that the
+    /// Modes with the interface free, or some of it, by K − σM of the dofs that are free; `rigid` are the motions that the
     /// reduction deflates.
     ///
     /// # Errors
     /// The eigensolver fails; the count falls on an eigenvalue.
     pub(super) fn moving(
         full: &Full<'_>,
-        (boundary, factor): (Boundary, &dyn SolveOperator),
+        (boundary, operator): (Boundary, &dyn ShiftInvert),
         rigid: &RigidBodyModes,
         job: &ReductionJob,
     ) -> Result<Self> {
         let problem = full.partition.problem_under(boundary);
         let passing = rigid.under(boundary);
         let problem = passing.map_or(problem, |passing| problem.deflating(passing.deflated()));
-        let mut found = Self::of(problem, (factor, full.sigma), job, full.partition)?;
+        let mut found = Self::of(problem, operator, job, full.partition)?;
         // Motions that K does not quite let pass are not those of the next operator: what they cost it is what tells both apart.
         let energy = rigid.energy.largest_quotient / full.first;
         for group in &found.groups {
-            let gap = gap_of(&found.modes, full.sigma, group);
+            let gap = gap_of(&found.modes, operator.shift(), group);
             let turn = energy / gap;
             found.angles[group.clone()].iter_mut().for_each(|angle| *angle = (*angle + turn).min(1.0));
             // A shape that lacks δ of θ, and is turned by δ/γ for it, has a quotient that is off by δ²/γ.
@@ -118,18 +118,18 @@ impl AskedModes {
             return Ok(Self::none(partition, mode_wish(job.wanted(), partition)));
         };
         let problem = partition.held_problem();
-        Self::of(problem, (&interior.factor, interior.sigma), job, partition)
+        Self::of(problem, &Factored::new(&interior.factor, interior.sigma), job, partition)
     }
 
     fn of(
         problem: ModalProblem<'_>,
-        (factor, sigma): (&dyn SolveOperator, f64),
+        operator: &dyn ShiftInvert,
         job: &ReductionJob,
         partition: &Partition,
     ) -> Result<Self> {
         let wanted = mode_wish(job.wanted(), partition);
         let by = |eigensolver: Eigensolver| {
-            elastic_modes(problem, &Factored::new(factor, sigma), ModeRequest { wanted, eigensolver, seed: SEED })
+            elastic_modes(problem, operator, ModeRequest { wanted, eigensolver, seed: SEED })
         };
         let (modes, other_failed) = match by(other_than(job.eigensolver)) {
             // From other start vectors and another factor the eigensolver of the job is a witness too.
@@ -138,7 +138,8 @@ impl AskedModes {
             }
             found => (found?, None),
         };
-        let lacking = lacking(problem, (factor, sigma), &modes);
+        let sigma = operator.shift();
+        let lacking = lacking(problem, operator, &modes);
         let groups = clusters(&modes, sigma);
         let angles = angles(&modes, sigma, (&lacking, &groups));
         let turns_inside = turns_inside(&modes, (&lacking, &groups));
@@ -322,7 +323,8 @@ fn residual_bars(modes: &Modes, sigma: f64, (lacking, groups): (&[f64], &[Range<
 
 /// δ of each mode: with r the residual, δ² = rᵀ(K − σM)⁻¹r/(λ − σ) is what a shape lacks in θ = 1/(λ − σ), relatively; and what
 /// the reduction leaves of its own at most.
-fn lacking(problem: ModalProblem<'_>, (factor, sigma): (&dyn SolveOperator, f64), modes: &Modes) -> Vec<f64> {
+fn lacking(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, modes: &Modes) -> Vec<f64> {
+    let sigma = operator.shift();
     let mut lacking = Vec::with_capacity(modes.count());
     for columns in panels(modes.count()) {
         let x = modes.shapes.as_ref().get(.., columns.clone());
@@ -336,7 +338,7 @@ fn lacking(problem: ModalProblem<'_>, (factor, sigma): (&dyn SolveOperator, f64)
         let resultant = dense::gram(q, r.as_ref());
         dense::add_product(r.as_mut(), -1.0, mass_q, resultant.as_ref());
         let mut y: Mat<f64> = r.clone();
-        factor.solve_in_place(y.as_mut());
+        operator.solve_in_place(y.as_mut());
         for (j, energy) in columns.zip(dense::dots(r.as_ref(), y.as_ref())) {
             let distance = modes.lambda[j] - sigma;
             let floor = FLOOR_OF_REDUCTION * f64::EPSILON * distance / (modes.lambda[0] - sigma);

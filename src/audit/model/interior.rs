@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! K_II x = f              n_I × k
-//! K_II − σM_II = L Lᵀ     σ < 0, the preconditioner
+//! K_II − σM_II = L Lᵀ     σ < 0, the preconditioner: a [`Nearby`] one
 //! ```
 //! K_II (K_II − σM_II)⁻¹ has its eigenvalues between λ/(λ − σ) and 1, λ the first eigenvalue with the interface held. With
 //! −σ a hundredth of the first elastic eigenvalue of the free component only motions that the interface hardly holds, as
@@ -11,6 +11,7 @@
 
 use faer::{Mat, MatRef};
 
+use super::nearby::Nearby;
 use crate::dense;
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky, SolveOperator};
@@ -26,8 +27,9 @@ const MAX_STEPS: usize = 200;
 const SOLVED: f64 = 1e-15;
 /// Residual at which a solution is known in size: the softest motion that the interface holds may have a millionth of it.
 const KNOWN_IN_SIZE: f64 = 1e-6;
-/// Steps without progress after which rounding is all that is left.
-const STALLED: usize = 4;
+/// Steps without progress after which rounding is all that is left: twice the motions that the interface may hardly hold, for which the
+/// residual grows before it falls.
+const STALLED: usize = 12;
 
 /// The interior with a factor of K_II − σM_II.
 pub(super) struct Interior<'a> {
@@ -53,8 +55,9 @@ impl<'a> Interior<'a> {
     /// # Errors
     /// K_II − σM_II is not definite; no memory.
     pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis, first: f64) -> Result<Self> {
-        let (pencil, sigma) = (partition.internal(), -SHIFT * first);
-        let factor = Cholesky::new(analysis, pencil, sigma, &|dof| partition.name_of(dof))?;
+        let pencil = partition.internal();
+        let Nearby { factor, sigma } =
+            Nearby::new(partition, (analysis, pencil), -SHIFT * first, &|dof| partition.name_of(dof))?;
         Ok(Self { pencil, factor, sigma })
     }
 

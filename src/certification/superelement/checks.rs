@@ -3,9 +3,12 @@
 use faer::Mat;
 
 use super::compared::Compared;
+use super::dependence;
 use super::foreign::{Difference, Foreign};
 use crate::audit::{condition_of, negative_mass};
+use crate::certification::strayed;
 use crate::dense;
+use crate::error::Result;
 use crate::number::{counted, quantity};
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::{self, Judged, Known};
@@ -15,12 +18,16 @@ const CARRIED: f64 = 1e-6;
 /// Share that fails.
 const NOT_CARRIED: f64 = 1e-3;
 /// Relative difference of a frequency that practice accepts.
-const FREQUENCY: f64 = 1e-2;
+pub(super) const FREQUENCY: f64 = 1e-2;
 /// Share of a mode beside the basis that practice accepts, and from which on the basis has another one: of its mass, a hundredth and a
 /// half.
 const BESIDE: [f64; 2] = [0.1, 0.707];
 
-pub(super) fn checks(compared: &Compared<'_>, band_hz: [f64; 2]) -> Vec<Check> {
+/// Every check that needs no interface.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn checks(compared: &Compared<'_>, band_hz: [f64; 2]) -> Result<Vec<Check>> {
     let Compared { foreign, .. } = compared;
     let mut checks = vec![compared.projection("stiffness", &foreign.stiffness.worst(foreign.rounding))];
     checks.push(compared.projection("mass", &foreign.mass.worst(foreign.rounding)));
@@ -31,11 +38,13 @@ pub(super) fn checks(compared: &Compared<'_>, band_hz: [f64; 2]) -> Vec<Check> {
     checks.extend(compared.rigid_mass());
     checks.extend(compared.frequencies_in_band(band_hz));
     checks.extend(compared.modes_in_basis(band_hz));
+    checks.extend(strayed::check(compared.component.partition, &foreign.strayed, |at| foreign.name(at)));
     checks.extend(compared.monotonicity());
     checks.push(condition(foreign));
     checks.push(symmetry(foreign));
     checks.push(compared.definiteness());
-    checks
+    checks.push(dependence::check(compared.component.partition, foreign)?);
+    Ok(checks)
 }
 
 impl Compared<'_> {
@@ -194,7 +203,7 @@ impl Compared<'_> {
         Some(Check {
             id: "C-08",
             name: "frequencies of the free component are preserved",
-            equation: "max |f_reduced / f − 1| in the band",
+            equation: "max |f_reduced / f − 1| in the band, of modes that are the same by their shapes",
             value,
             limits: Limits { engineering: FREQUENCY, ..Limits::default() },
             fail_above: self.frequency_fails,
@@ -250,7 +259,8 @@ impl Compared<'_> {
             .filter(|(_, (_, (full, _)))| **full <= self.top)
         {
             let below = (1.0 - reduced / full).max(0.0);
-            let data = error.data_bar + self.of_digits() * error.cancellation;
+            let of_reduced = dense::NOISE_FACTOR * self.of_digits_of(at);
+            let data = error.data_bar + self.of_digits() * error.cancellation + of_reduced;
             let limits = Limits { engineering: CARRIED, arithmetic: error.residual_bar, data }.capped(MOST, MOST);
             if worst.2.is_none() || dense::worse(below / limits.value(), worst.0 / worst.1.value()) {
                 worst = (below, limits, Some(at));

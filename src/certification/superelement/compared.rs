@@ -17,11 +17,15 @@ pub(super) struct Compared<'a> {
     pub(super) errors: &'a [ModeError],
     /// λ of the superelement, ascending; none where K̂ or M̂ is not definite.
     pub(super) reduced: Option<Vec<f64>>,
+    /// What the digits of K̂ and M̂ may make of each of them, relative to it; nothing where they have all digits.
+    pub(super) of_digits: Vec<f64>,
     /// Of them, how many are no elastic mode's.
     pub(super) n_without_stiffness: usize,
     pub(super) rigid: Nearest,
     /// ‖x − Ψq‖ of each mode of the component, x of unit mass and q the best there is.
     pub(super) left_of_modes: Vec<f64>,
+    /// Which elastic mode of the superelement each mode of the component is, by their shapes.
+    pub(super) partners: Vec<Option<usize>>,
     /// Difference of a frequency in the band that fails.
     pub(super) frequency_fails: f64,
     /// λ up to which they are compared.
@@ -43,13 +47,18 @@ impl Compared<'_> {
         self.reduced.as_deref().map_or(&[], |reduced| &reduced[self.n_without_stiffness..])
     }
 
-    /// The frequencies of both models, one to one.
+    /// What the digits of K̂ and M̂ may make of the eigenvalue of an elastic mode, relative to it.
+    pub(super) fn of_digits_of(&self, mode: usize) -> f64 {
+        self.of_digits.get(self.n_without_stiffness + mode).copied().unwrap_or(0.0)
+    }
+
+    /// The frequencies of both models, one to one by the shapes of their modes.
     pub(super) fn frequencies(&self, [from, to]: [f64; 2]) -> Option<BoundaryComparison> {
         self.reduced.as_ref()?;
         let hertz = |lambda: f64| self.component.partition.scaling.hertz(lambda);
         let pair = |(at, full): (usize, &f64)| {
             let full_hz = hertz(*full);
-            let reduced_hz = self.elastic().get(at).map_or(f64::INFINITY, |lambda| hertz(*lambda));
+            let reduced_hz = self.partners[at].map_or(f64::INFINITY, |partner| hertz(self.elastic()[partner]));
             let in_band = (from..=to).contains(&full_hz);
             FrequencyPair { full_hz, reduced_hz, relative_difference: reduced_hz / full_hz - 1.0, in_band }
         };

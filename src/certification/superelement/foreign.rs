@@ -6,7 +6,8 @@ use faer::Mat;
 
 use super::files::{ForeignSuperelement, ReducedMatrix};
 use super::interface::Interface;
-use crate::certification::claims::carried;
+use crate::certification::carrier::{Carried, Carrier};
+use crate::certification::strayed::Strayed;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::partition::{DofOrigin, Partition};
@@ -35,8 +36,8 @@ pub struct Foreign {
     names: BTreeMap<usize, String>,
     /// What the numbers of Ψ may be off by, relative to each.
     pub(super) rounding: f64,
-    /// How far rows that are held, or follow others, move away from that, relative to the largest displacement of each column.
-    pub(super) not_followed: f64,
+    /// How far rows that are held, or follow others, are from where they have to be in each column.
+    pub(super) strayed: Vec<Strayed>,
 }
 
 /// A reduced matrix next to what it has to be.
@@ -62,17 +63,22 @@ impl Foreign {
     pub fn of(partition: &Partition, foreign: &ForeignSuperelement, interface: &Interface) -> Result<Self> {
         let order = order(partition, foreign.n_coordinates(), interface);
         let (n, r, n_b) = (partition.n_dofs(), order.len(), partition.n_interface());
-        let (mut basis, mut units, mut not_followed) = (Mat::zeros(n, r), vec![1.0; r], 0.0f64);
+        let (mut basis, mut units) = (Mat::zeros(n, r), vec![1.0; r]);
+        let (mut strayed, mut rounding) = (Vec::with_capacity(r), 0.0f64);
+        let carrier = Carrier::of(partition);
         for (at, coordinate) in order.iter().enumerate() {
             let column = dense::column_mut(basis.as_mut(), at);
-            let (unit, left) = carried(partition, &foreign.basis.columns[*coordinate], column)
+            let carried = carrier
+                .carry(&foreign.basis.columns[*coordinate], foreign.basis.rounding, column)
                 .ok_or(Error::ModesNothing { mode: coordinate + 1, found: "zero everywhere" })?;
+            let Carried { unit, .. } = carried;
             // An interface dof keeps its unit.
             match at < n_b {
                 true => column.iter_mut().for_each(|value| *value *= unit),
                 false => units[at] = unit,
             }
-            not_followed = not_followed.max(left);
+            strayed.push(carried.strayed);
+            rounding = rounding.max(carried.rounding);
         }
         let scaling = partition.scaling;
         let places = Places { order: &order, units: &units };
@@ -83,14 +89,25 @@ impl Foreign {
             order,
             n_b,
             names: interface.names.clone(),
-            rounding: foreign.basis.rounding,
-            not_followed,
+            rounding,
+            strayed,
         })
     }
 
     /// r.
     pub(super) fn n_reduced(&self) -> usize {
         self.order.len()
+    }
+
+    /// What the digits of K̂ and M̂ may make of an eigenvalue, relative to it; `q` is its mode at unit modal mass.
+    pub(super) fn changed_by_digits(&self, lambda: f64, q: &[f64]) -> f64 {
+        let share = (self.stiffness.changed_by_digits(q) / lambda).abs() + self.mass.changed_by_digits(q);
+        if share.is_nan() { f64::INFINITY } else { share }
+    }
+
+    /// Whether K̂ or M̂ has fewer digits than double precision.
+    pub(super) fn has_few_digits(&self) -> bool {
+        [&self.stiffness, &self.mass].iter().any(|pair| pair.rounding[0].max(pair.rounding[1]) > f64::EPSILON)
     }
 
     /// What a message calls a coordinate: its number in the files, from one, and its dof where it is one.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::files::ForeignSuperelement;
 use crate::dofs::{Direction, Dof};
-use crate::job::{Coupling, InterfaceJob, NodeSelection};
+use crate::job::{Coupling, FixedJob, InterfaceJob, Job, NodeSelection};
 use crate::partition::{DofOrigin, Partition};
 
 /// Nodes that are an interface each; more of them are one together.
@@ -15,6 +15,8 @@ const MOST_NODES: usize = 8;
 pub struct Interface {
     /// For each kept row of the model its coordinate, from zero.
     pub coordinates: BTreeMap<usize, usize>,
+    /// Their numbers in the files.
+    pub rows: Vec<usize>,
     /// What a job has in their place.
     pub jobs: Vec<InterfaceJob>,
     /// What each of these coordinates is called.
@@ -23,11 +25,25 @@ pub struct Interface {
     pub at_rest: Vec<String>,
 }
 
+impl Interface {
+    /// A job of the model with these rows at rest; none where there are none.
+    pub fn held(&self, job: &Job) -> Option<Job> {
+        if self.rows.is_empty() {
+            return None;
+        }
+        let name = Some("interface of the superelement".to_owned());
+        let at_rest = FixedJob { name, nodes: NodeSelection::Rows { rows: self.rows.clone() }, dofs: None };
+        let fixed = job.fixed.iter().cloned().chain([at_rest]).collect();
+        Some(Job { fixed, ..job.clone() })
+    }
+}
+
 /// The rows that have a coordinate of their own: it moves them by one and no other coordinate moves them, and it does so with no other row.
 /// Rows that the partition holds, or that follow others, are none.
 pub fn interface(partition: &Partition, foreign: &ForeignSuperelement) -> Interface {
     let columns = &foreign.basis.columns;
-    let is_one = |value: f64| (value - 1.0).abs() <= foreign.basis.rounding;
+    let rounding = foreign.basis.rounding;
+    let is_one = |value: f64| (value - 1.0).abs() <= rounding.relative + rounding.absolute;
     let (mut rows_of, mut at_rest) = (vec![Vec::new(); columns.len()], BTreeMap::new());
     for (at, dof) in partition.dofs.iter().enumerate() {
         let DofOrigin::Row(row) = dof.origin else { continue };
@@ -47,10 +63,11 @@ pub fn interface(partition: &Partition, foreign: &ForeignSuperelement) -> Interf
             _ => None,
         })
         .collect();
+    let rows = own.keys().map(|row| partition.model.rows.of(*row)).collect();
     let jobs = jobs(own.iter().map(|(row, (_, at))| (partition.model.rows.of(*row), partition.dofs[*at].dof)));
     let names = own.values().map(|(coordinate, at)| (*coordinate, partition.name_of(*at))).collect();
     let coordinates = own.into_iter().map(|(row, (coordinate, _))| (row, coordinate)).collect();
-    Interface { coordinates, names, jobs, at_rest: at_rest.into_values().collect() }
+    Interface { coordinates, rows, names, jobs, at_rest: at_rest.into_values().collect() }
 }
 
 /// An interface for each node where there are a few, in the order of their first rows; otherwise one of all rows.

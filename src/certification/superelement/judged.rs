@@ -6,21 +6,27 @@ use super::checks;
 use super::compared::{Compared, Nearest};
 use super::foreign::Foreign;
 use super::interface::Interface;
+use super::left_out::LeftOut;
+use super::pairing::paired;
 use crate::certification::band::Band;
 use crate::dense;
-use crate::eigen::Spectral;
+use crate::eigen::{Modes, Spectral};
 use crate::error::{ErrorClass, Result};
 use crate::job::{Certify, InterfaceJob, Job, Method, ModeSelection, ReductionJob, SceneJob};
 use crate::modes::{Component, ModeSource, Search, certified};
-use crate::number::{counted, quantity};
+use crate::number::counted;
 use crate::partition::Partition;
 use crate::random::SEED;
 use crate::sparse::product;
 use crate::verification::check::{Check, Verdict};
-use crate::verification::preservation::{BoundaryComparison, Preservation};
+use crate::verification::preservation::{BoundaryComparison, Preservation, Unmade, unmade_check};
 
 /// Modes are compared up to the highest of the component's own over this: above, no superelement of as many modes is meant to serve.
 const CUT_OFF: f64 = 1.5;
+
+/// Eigenvalues of a superelement above the end of the band that belong to modes below it: a hundredth, and half of a frequency where that
+/// fails.
+const ABOVE: f64 = 4.0;
 
 /// What was found of a superelement of another program.
 #[derive(Clone, Debug)]
@@ -42,7 +48,7 @@ pub struct ReducedCertification {
 impl ReducedCertification {
     /// What is known of a superelement before its interface is looked at.
     pub fn new(foreign: &Foreign, interface: &Interface, free: FreeComparison) -> Self {
-        let notes = notes(foreign, interface);
+        let notes = notes(interface);
         let (n_coordinates, n_interface) = (foreign.n_reduced(), interface.coordinates.len());
         let mut checks = free.checks.clone();
         checks.sort_by_key(place);
@@ -57,7 +63,7 @@ impl ReducedCertification {
         is_comparable.then(|| Job { interfaces, reduction, scene: Some(scene), ..job.clone() })
     }
 
-    /// Adds the comparison at the interface; one that the model does not allow is a note.
+    /// Adds the comparison at the interface; one that the model does not allow is a note, and counts in M-33.
     ///
     /// # Errors
     /// Those of the machine.
@@ -71,6 +77,30 @@ impl ReducedCertification {
             }
             Err(error) if matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit) => {
                 self.notes.push(format!("nothing was compared at the interface: {error}"));
+                let what = "statics, other boundaries and responses at the interface".to_owned();
+                self.checks.extend(unmade_check(&[Unmade { what, is_of_reduced: false }]));
+                self.checks.sort_by_key(place);
+                Ok(())
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Adds what modes of its own the superelement left out, or why that is not known.
+    ///
+    /// # Errors
+    /// Those of the machine.
+    pub fn complete(&mut self, left_out: Result<Option<LeftOut>>) -> Result<()> {
+        match left_out {
+            Ok(left_out) => {
+                let worst = self.free.frequencies.as_ref().map_or(f64::INFINITY, |compared| compared.worst_in_band);
+                let is_needed = || dense::worse(worst, FREQUENCY_FAILS[0]);
+                self.checks.extend(left_out.map(|left_out| left_out.check(is_needed)));
+                self.checks.sort_by_key(place);
+                Ok(())
+            }
+            Err(error) if matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit) => {
+                self.notes.push(format!("whether modes of its own were left out is not known: {error}"));
                 Ok(())
             }
             Err(error) => Err(error),
@@ -89,9 +119,7 @@ fn place(check: &Check) -> (bool, &'static str) {
 }
 
 /// What is said besides the checks.
-fn notes(foreign: &Foreign, interface: &Interface) -> Vec<String> {
-    /// Displacement of rows at rest that is no rounding of a text.
-    const MOVES: f64 = 1e-5;
+fn notes(interface: &Interface) -> Vec<String> {
     /// Rows that a note names.
     const NAMED: usize = 3;
     let mut notes = Vec::new();
@@ -99,13 +127,6 @@ fn notes(foreign: &Foreign, interface: &Interface) -> Vec<String> {
         notes.push(
             "no coordinate is a row of the model: there is no interface at which statics and responses could be compared".to_owned(),
         );
-    }
-    if foreign.not_followed > MOVES {
-        notes.push(format!(
-            "rows that are held, or that follow others, move in the basis by up to {} of the largest displacement of a column: it may be \
-             that of other supports",
-            quantity(foreign.not_followed, 2)
-        ));
     }
     let at_rest = &interface.at_rest;
     if !at_rest.is_empty() {
@@ -160,17 +181,24 @@ pub fn compared_free(
     };
     let first = modes.lambda.first().copied().unwrap_or(1.0);
     let spectral = Spectral::if_definite(foreign.stiffness.given.as_ref(), foreign.mass.given.as_ref(), first)?;
-    let reduced = spectral.map(|spectral| spectral.eigenvalues());
+    let of_digits = spectral.as_ref().map_or_else(Vec::new, |spectral| changes(foreign, spectral, top));
+    let reduced = spectral.as_ref().map(Spectral::eigenvalues);
     let is_free = |lambda: &&f64| **lambda < 0.5 * first;
     let n_without_stiffness = reduced.as_ref().map_or(0, |reduced| reduced.iter().take_while(is_free).count());
+    let partners = match &spectral {
+        Some(spectral) => partners(component.partition, foreign, (&modes, spectral), n_without_stiffness),
+        None => vec![None; modes.count()],
+    };
     let compared = Compared {
         component,
         foreign,
         full: &modes.lambda,
         errors: &modes.errors,
         reduced,
+        of_digits,
         n_without_stiffness,
         rigid: rigid(component, foreign)?,
+        partners,
         left_of_modes: nearest(component.partition, foreign, modes.shapes.as_ref())?.left,
         frequency_fails: FREQUENCY_FAILS[usize::from(band.is_none())],
         top,
@@ -183,8 +211,39 @@ pub fn compared_free(
         n_rigid: component.rigid.count(),
         n_without_stiffness,
         frequencies: compared.frequencies(band_hz),
-        checks: checks::checks(&compared, band_hz),
+        checks: checks::checks(&compared, band_hz)?,
     })
+}
+
+/// Which elastic mode of the superelement each mode of the component is.
+fn partners(
+    partition: &Partition,
+    foreign: &Foreign,
+    (modes, spectral): (&Modes, &Spectral),
+    n_without_stiffness: usize,
+) -> Vec<Option<usize>> {
+    let elastic = &spectral.eigenvalues()[n_without_stiffness..];
+    let of_mode: Vec<Vec<f64>> =
+        (0..elastic.len()).map(|mode| spectral.eigenvector(n_without_stiffness + mode)).collect();
+    let q = Mat::from_fn(foreign.n_reduced(), elastic.len(), |i, j| of_mode[j][i]);
+    let momenta = product(&partition.mass, modes.shapes.as_ref());
+    let moments = dense::gram(foreign.basis.as_ref(), momenta.as_ref());
+    let along = dense::gram(moments.as_ref(), q.as_ref());
+    let masses = dense::dots(q.as_ref(), dense::product(foreign.mass.projected.as_ref(), q.as_ref()).as_ref());
+    paired(
+        &modes.lambda,
+        elastic,
+        &Mat::from_fn(modes.count(), elastic.len(), |i, j| along[(i, j)].powi(2) / masses[j]),
+    )
+}
+
+/// What the digits of K̂ and M̂ may make of each eigenvalue up to one, relative to it.
+fn changes(foreign: &Foreign, spectral: &Spectral, top: f64) -> Vec<f64> {
+    if !foreign.has_few_digits() {
+        return Vec::new();
+    }
+    let inside = spectral.eigenvalues().into_iter().enumerate().take_while(|(_, lambda)| *lambda <= ABOVE * top);
+    inside.map(|(mode, lambda)| foreign.changed_by_digits(lambda, &spectral.eigenvector(mode))).collect()
 }
 
 /// Rigid-body motion with mass as the superelement has it.

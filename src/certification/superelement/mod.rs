@@ -11,14 +11,18 @@
 
 mod checks;
 mod compared;
+mod dependence;
 mod files;
 mod foreign;
 mod interface;
 mod judged;
+mod left_out;
+mod pairing;
 mod preserved;
 
 pub use files::{ForeignSuperelement, ReducedFiles, ReducedMatrix};
 pub use foreign::Foreign;
 pub use interface::{Interface, interface};
 pub use judged::{FreeComparison, ReducedCertification, compared_free};
+pub use left_out::{LeftOut, Own, left_out};
 pub use preserved::preserved;

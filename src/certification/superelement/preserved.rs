@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::foreign::{Foreign, Pair};
+use super::foreign::Foreign;
 use super::judged::rigid;
 use crate::dense;
 use crate::eigen::Spectral;
@@ -14,7 +14,7 @@ use crate::partition::{InterfaceNode, Partition};
 use crate::reduction::{Projection, Reduction};
 use crate::sparse::product;
 use crate::verification::check::Check;
-use crate::verification::preservation::Preservation;
+use crate::verification::preservation::{Preservation, Unmade, unmade_check};
 use crate::verification::{self, Evidence};
 
 /// Share of rigid-body motion that amplitudes may have at the interface's side.
@@ -39,8 +39,10 @@ pub fn preserved(
     let beside = dense::worst(masses.into_iter().map(|mass| mass.max(0.0).sqrt()).chain(found.left));
     if dense::worse(beside, BY_INTERFACE) {
         let why = "the motion of its interface alone does not carry the component as a rigid body";
-        let not_compared = vec![format!("statics, other boundaries and responses: {why}")];
-        return Ok((Preservation { not_compared, ..Preservation::default() }, Vec::new()));
+        let what = "statics, other boundaries and responses";
+        let report = Preservation { not_compared: vec![format!("{what}: {why}")], ..Preservation::default() };
+        let unmade = Unmade { what: format!("{what}: {why}"), is_of_reduced: false };
+        return Ok((report, unmade_check(&[unmade]).into_iter().collect()));
     }
     let n_b = foreign.n_b;
     let reduction = Reduction {
@@ -61,8 +63,17 @@ pub fn preserved(
     let mut compared = verification::preservation_of_file((&evidence, own), analysis, job)?;
     // Its leading coordinates are not what a smaller superelement of its maker would have.
     compared.report.size_errors.clear();
-    let digits = Digits::of(partition, foreign)?;
+    let top = job
+        .scene
+        .as_ref()
+        .and_then(|scene| scene.band_hz)
+        .map_or(f64::INFINITY, |[_, to]| partition.scaling.eigenvalue(to));
+    let digits = Digits::of(partition, foreign, top)?;
     compared.checks.iter_mut().for_each(|check| digits.excuse(check));
+    if compared.unmade.iter().any(|unmade| unmade.is_of_reduced) {
+        let unmade = compared.checks.iter_mut().filter(|check| check.id == "M-33");
+        unmade.for_each(|check| check.fail_above = Check::AT_LIMIT);
+    }
     Ok((compared.report, compared.checks))
 }
 
@@ -74,31 +85,39 @@ struct Digits {
     of_stiffness: f64,
 }
 
+/// Relative change of an eigenvalue from which on it is that of rigid-body motion.
+const FREE: f64 = 0.1;
 /// The most that digits may excuse without a warning, and at all.
 const MOST_EXCUSED: [f64; 2] = [1e-3, 1e-2];
 
 impl Digits {
-    fn of(partition: &Partition, foreign: &Foreign) -> Result<Self> {
+    /// Of every mode up to λ of `top`, free and with one node of the interface held at a time.
+    fn of(partition: &Partition, foreign: &Foreign, top: f64) -> Result<Self> {
         let Foreign { stiffness, mass, n_b, .. } = foreign;
-        let worst = |pair: &Pair| pair.rounding[0].max(pair.rounding[1]);
-        if worst(stiffness).max(worst(mass)) <= f64::EPSILON {
+        if !foreign.has_few_digits() {
             return Ok(Self { of_eigenvalue: 0.0, of_stiffness: 0.0 });
         }
         let quotient = |i: usize| stiffness.given[(i, i)] / mass.given[(i, i)];
         let quotients = (0..foreign.n_reduced()).map(quotient).filter(|lambda| *lambda > 0.0 && lambda.is_finite());
         let least = quotients.fold(f64::INFINITY, f64::min);
         let mut of_eigenvalue = 0.0f64;
-        for held in held_nodes(partition) {
+        for held in std::iter::once(Vec::new()).chain(held_nodes(partition)) {
             let moving: Vec<usize> = (0..foreign.n_reduced()).filter(|at| !held.contains(at)).collect();
             let [k, m] = [stiffness, mass].map(|pair| dense::part(pair.given.as_ref(), &moving));
             let Some(spectral) = Spectral::if_definite(k.as_ref(), m.as_ref(), least)? else { continue };
-            let Some(lambda) = spectral.eigenvalues().first().copied().filter(|lambda| *lambda > 0.0) else { continue };
-            let mut q = vec![0.0; foreign.n_reduced()];
-            moving.iter().zip(spectral.eigenvector(0)).for_each(|(at, value)| q[*at] = value);
-            let change = stiffness.changed_by_digits(&q) / lambda + mass.changed_by_digits(&q);
-            of_eigenvalue = of_eigenvalue.max(change);
+            for (mode, lambda) in
+                spectral.eigenvalues().into_iter().enumerate().take_while(|(_, lambda)| *lambda <= top)
+            {
+                let mut q = vec![0.0; foreign.n_reduced()];
+                moving.iter().zip(spectral.eigenvector(mode)).for_each(|(at, value)| q[*at] = value);
+                // Rigid-body motion has energy of digits alone, and no frequency that could be off.
+                let change = foreign.changed_by_digits(lambda, &q);
+                if change < FREE {
+                    of_eigenvalue = of_eigenvalue.max(change);
+                }
+            }
         }
-        Ok(Self { of_eigenvalue, of_stiffness: *n_b as f64 * worst(stiffness) })
+        Ok(Self { of_eigenvalue, of_stiffness: *n_b as f64 * stiffness.rounding[0].max(stiffness.rounding[1]) })
     }
 
     /// Widens the limits of a check by what digits may make of it.

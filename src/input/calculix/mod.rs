@@ -12,4 +12,4 @@ mod expanded_map;
 mod expansion;
 mod rebuilt;
 
-pub(super) use rebuilt::rebuilt;
+pub(super) use rebuilt::{digests_next_to, rebuilt};

@@ -11,15 +11,15 @@ use crate::input::format::{NodeFormat, ReadNodes};
 use crate::input::mesh::FRD;
 use crate::input::mesh::deck::n_incompatible;
 use crate::input::{Allowance, InputNote};
-use crate::regular_file::{digest, unchanged};
+use crate::regular_file::{digest, digest_of_list, unchanged};
 
 /// A dof map without repeated labels, and the nodes that it names.
 pub(in crate::input) struct Rebuilt {
     pub(in crate::input) dofs: DofMap,
     pub(in crate::input) nodes: Nodes,
     pub(in crate::input) notes: Vec<InputNote>,
-    /// BLAKE3 of the files that told them, one below the other.
-    pub(in crate::input) digest: Option<String>,
+    /// BLAKE3 of the files that told them, one below the other; of nothing where the deck alone did.
+    pub(in crate::input) digest: String,
 }
 
 /// Rebuilds nodes and map of a model from what CalculiX wrote next to the map; none where there is no need or the files do not tell.
@@ -51,7 +51,7 @@ pub(in crate::input) fn rebuilt(
         }
         None => Expansion::default(),
     };
-    let mut rebuilt = Rebuilt { dofs: dofs.to_vec(), nodes: nodes.clone(), notes: Vec::new(), digest: None };
+    let mut rebuilt = Rebuilt { dofs: dofs.to_vec(), nodes: nodes.clone(), notes: Vec::new(), digest: String::new() };
     if has_repeated {
         let (Some(_), Some(positions)) = (&topology, &positions) else { return Ok(None) };
         let Some(map) = expanded_map(dofs, &expansion) else { return Ok(None) };
@@ -65,11 +65,23 @@ pub(in crate::input) fn rebuilt(
     if !unknown.is_empty() && !rebuilt.take_amplitudes(&unknown, &expansion, (map_path, nodes_path), allowance)? {
         return Ok(None);
     }
-    rebuilt.digest = (!digests.is_empty()).then(|| match digests.as_slice() {
-        [digest] => digest.clone(),
-        digests => blake3::hash(digests.join("\n").as_bytes()).to_hex().to_string(),
-    });
+    rebuilt.digest = digest_of_list(&digests);
     Ok(Some(rebuilt))
+}
+
+/// The digests that [`rebuilt`] may record of the files that lie next to a map now: one where it reads the first of them, another where it reads
+/// both. Which it reads depends on the map and the nodes alone.
+///
+/// # Errors
+/// A file that is there and cannot be read.
+pub(in crate::input) fn digests_next_to(map_path: &Path) -> Result<Vec<String>> {
+    let Some(topology) = beside(map_path, "12d") else { return Ok(vec![digest_of_list(&[])]) };
+    let topology = digest(&topology)?;
+    let mut possible = vec![topology.clone()];
+    if let Some(positions) = beside(map_path, "frd") {
+        possible.push(digest_of_list(&[topology, digest(&positions)?]));
+    }
+    Ok(possible)
 }
 
 impl Rebuilt {

@@ -42,7 +42,7 @@ pub(crate) use file::start;
 pub(in crate::input) use modes::feminterface_modes;
 pub(crate) use modes::{mode_columns, rehearse_dataset, rehearse_feminterface};
 pub use nodes::read_nodes;
-pub(crate) use nodes::{read_nodes_within, referenced_files};
+pub(crate) use nodes::{data_digest, read_nodes_within, referenced_files};
 pub(crate) use patch_cells::read_faces;
 pub use sparse::read_matrix;
 pub(crate) use sparse::read_matrix_within;

@@ -49,6 +49,15 @@ pub(crate) fn referenced_files(path: &Path) -> Vec<std::path::PathBuf> {
     if is_xml(path).unwrap_or(false) { xdmf::referenced_files(path) } else { Vec::new() }
 }
 
+/// The digest of the file that a mesh in XML takes its geometry from now; none where that is in itself.
+///
+/// # Errors
+///
+/// A file that cannot be read.
+pub(crate) fn data_digest(path: &Path) -> Result<Option<String>> {
+    if is_xml(path)? { xdmf::data_digest(path) } else { Ok(None) }
+}
+
 /// True if the first character that is not a blank opens a tag, or if the file is called XDMF and is empty.
 pub(super) fn is_xml(path: &Path) -> Result<bool> {
     let start = FileStart::of(path)?;

@@ -87,6 +87,19 @@ pub(super) fn referenced_files(path: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The digest of the file that the geometry lies in now; none where the document has it.
+///
+/// # Errors
+/// A file that cannot be read.
+pub(super) fn data_digest(path: &Path) -> Result<Option<String>> {
+    let text = text_of(path, &Allowance::of(None).claim(path))?;
+    let document = parse(&text, path)?;
+    let Some(node) = document.descendants().find(|node| node.tag_name().name() == "Geometry") else { return Ok(None) };
+    let geometry = Geometry::of(node, path)?;
+    let file = inside_folder(path, geometry.content).filter(|_| geometry.format == "HDF");
+    file.map(|(file, _)| digest(&file)).transpose()
+}
+
 /// A `Geometry` element with its one data item.
 #[derive(Clone, PartialEq, Eq, Hash)]
 struct Geometry<'a> {

@@ -13,6 +13,7 @@ use crate::input::source::{Source, read_error};
 /// Bytes of the head of a file.
 const HEAD: usize = 128;
 const COMPRESSED: u32 = 15;
+const UNDAMAGED: &str = "compressed data that are not damaged";
 
 /// What is done with an array.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -35,10 +36,7 @@ pub(super) fn walk(path: &Path, mut each: impl FnMut(&Array, &mut Content<'_>) -
     let mut source = BufReader::with_capacity(1 << 16, Source::open(path)?);
     let mut head = [0; HEAD];
     let n_read = fill(&mut source, &mut head).map_err(|error| read_error(path, error))?;
-    let wrong = |at: u64, found: String, expected: &str| {
-        let (path, place, expected) = (path.to_owned(), format!("byte {at}"), expected.to_owned());
-        Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
-    };
+    let wrong = |at: u64, found: String, expected: &str| wrong(path, at, found, expected);
     let Some(endian) = endian(&head[..n_read]) else {
         return Err(wrong(0, format!("{n_read} bytes that are no head"), "the head of a MATLAB file, 128 bytes"));
     };
@@ -55,19 +53,7 @@ pub(super) fn walk(path: &Path, mut each: impl FnMut(&Array, &mut Content<'_>) -
         let (kind, length) = tag(&bytes, endian);
         let mut part = source.by_ref().take(length.into());
         let step = match kind {
-            COMPRESSED => {
-                let mut inflated = ZlibDecoder::new(&mut part);
-                let mut inner = [0; 8];
-                let n_read =
-                    fill(&mut inflated, &mut inner).map_err(|error| wrong(at, error.to_string(), "compressed data"))?;
-                match tag(&inner, endian) {
-                    (MATRIX, length) if n_read == inner.len() => {
-                        let mut content = Content::new(path, at, endian, Box::new(inflated.take(length.into())));
-                        visit(&mut content, &mut each)?
-                    }
-                    (other, _) => return Err(wrong(at, format!("a compressed element of type {other}"), "a matrix")),
-                }
-            }
+            COMPRESSED => packed((path, at, endian), &mut part, &mut each)?,
             MATRIX => {
                 let mut content = Content::new(path, at, endian, Box::new(&mut part));
                 visit(&mut content, &mut each)?
@@ -88,6 +74,37 @@ pub(super) fn walk(path: &Path, mut each: impl FnMut(&Array, &mut Content<'_>) -
             .map_err(|error| read_error(path, error))?;
         at += padding;
     }
+}
+
+fn wrong(path: &Path, at: u64, found: String, expected: &str) -> Error {
+    let (path, place, expected) = (path.to_owned(), format!("byte {at}"), expected.to_owned());
+    Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
+}
+
+/// Hands the array in a compressed element, which begins at byte `at` of the file, to `each`.
+fn packed(
+    (path, at, endian): (&Path, u64, Endian),
+    part: &mut impl Read,
+    each: &mut impl FnMut(&Array, &mut Content<'_>) -> Result<Step>,
+) -> Result<Step> {
+    let damaged = |error: std::io::Error| wrong(path, at, error.to_string(), UNDAMAGED);
+    let mut inflated = ZlibDecoder::new(part);
+    let mut inner = [0; 8];
+    let n_read = fill(&mut inflated, &mut inner).map_err(damaged)?;
+    let length = match tag(&inner, endian) {
+        (MATRIX, length) if n_read == inner.len() => length,
+        (other, _) => return Err(wrong(path, at, format!("a compressed element of type {other}"), "a matrix")),
+    };
+    let mut content = Content::new(path, at, endian, Box::new(inflated.by_ref().take(length.into())));
+    let step = visit(&mut content, each)?;
+    if step == Step::Stop {
+        // The checksum stands behind what is packed, and is compared where that ends.
+        content.skip()?;
+        if fill(&mut inflated, &mut [0]).map_err(damaged)? > 0 {
+            return Err(wrong(path, at, "more than its one array".to_owned(), UNDAMAGED));
+        }
+    }
+    Ok(step)
 }
 
 /// Hands an array to `each`, or the fields of a struct by their names behind that of the struct. Structs in structs are left out.

@@ -15,27 +15,35 @@ pub(in crate::input) struct MeshFile {
     sureness: fn(&FileStart<'_>) -> Sureness,
     read: fn(&Path, &Allowance) -> Result<CellMesh>,
     referenced: fn(&Path) -> Vec<PathBuf>,
+    data_digest: fn(&Path) -> Result<Option<String>>,
 }
 
 /// Input decks of Abaqus and CalculiX.
-pub(in crate::input) const DECK: MeshFile =
-    MeshFile { sureness: deck::sureness, read: deck::read, referenced: deck::included_files };
+pub(in crate::input) const DECK: MeshFile = MeshFile {
+    sureness: deck::sureness,
+    read: deck::read,
+    referenced: deck::included_files,
+    data_digest: deck::digest_of_included,
+};
 
 /// Meshes of Gmsh.
-pub(in crate::input) const GMSH: MeshFile =
-    MeshFile { sureness: gmsh::sureness, read: gmsh::read, referenced: |_| Vec::new() };
+pub(in crate::input) const GMSH: MeshFile = MeshFile::alone(gmsh::sureness, gmsh::read);
 
 /// Result files of CalculiX.
-pub(in crate::input) const FRD: MeshFile =
-    MeshFile { sureness: frd::sureness, read: frd::read, referenced: |_| Vec::new() };
+pub(in crate::input) const FRD: MeshFile = MeshFile::alone(frd::sureness, frd::read);
 
 /// Old files of VTK.
-pub(in crate::input) const VTK: MeshFile =
-    MeshFile { sureness: vtk::legacy_sureness, read: vtk::read_legacy, referenced: |_| Vec::new() };
+pub(in crate::input) const VTK: MeshFile = MeshFile::alone(vtk::legacy_sureness, vtk::read_legacy);
 
 /// XML files of VTK.
-pub(in crate::input) const VTU: MeshFile =
-    MeshFile { sureness: vtk::xml_sureness, read: vtk::read_xml, referenced: |_| Vec::new() };
+pub(in crate::input) const VTU: MeshFile = MeshFile::alone(vtk::xml_sureness, vtk::read_xml);
+
+impl MeshFile {
+    /// A format whose files refer to no others.
+    const fn alone(sureness: fn(&FileStart<'_>) -> Sureness, read: fn(&Path, &Allowance) -> Result<CellMesh>) -> Self {
+        Self { sureness, read, referenced: |_| Vec::new(), data_digest: |_| Ok(None) }
+    }
+}
 
 impl Format for MeshFile {
     fn sureness(&self, start: &FileStart<'_>) -> Sureness {
@@ -51,6 +59,10 @@ impl NodeFormat for MeshFile {
 
     fn referenced_files(&self, path: &Path) -> Vec<PathBuf> {
         (self.referenced)(path)
+    }
+
+    fn data_digest(&self, path: &Path) -> Result<Option<String>> {
+        (self.data_digest)(path)
     }
 
     fn has_cells(&self) -> bool {

@@ -11,4 +11,4 @@ mod matrices;
 mod reader;
 mod text;
 
-pub(super) use reader::Op4;
+pub(super) use reader::{Op4, begins, modes};

@@ -34,10 +34,10 @@ const FREE_MODES: f64 = 2.0;
 /// Modes with some or all of the interface held: at four times the band their response is right to 2 to 5 dB.
 const HELD_MODES: f64 = 4.0;
 
-/// The frequency up to which modes are kept where the job leaves that to the scene.
+/// The frequency up to which modes are kept, or looked at first, where the job leaves that to the scene.
 fn cut_off(scene: &Scene<'_>) -> Option<CutOff> {
     let (boundary, band_end) = (scene.boundary_of_modes()?, scene.band_end_hz()?);
-    if scene.job.reduction.modes.is_some() {
+    if matches!(scene.job.reduction.modes, Some(ModesJob::Computed(_) | ModesJob::File { .. })) {
         return None;
     }
     let factor = match boundary {
@@ -49,11 +49,12 @@ fn cut_off(scene: &Scene<'_>) -> Option<CutOff> {
 
 /// Chooses how many modes are kept where the job leaves that to the scene.
 pub(super) fn choose_cut_off(scene: &Scene<'_>, job: &mut Job) {
-    if job.reduction.method.modes() != ModeOrigin::Computed || job.reduction.modes.is_some() {
+    if job.reduction.method.modes() != ModeOrigin::Computed {
         return;
     }
-    let chosen = cut_off(scene).map(|CutOff { up_to_hz, .. }| ModesJob::Computed(ModeSelection::UpTo { up_to_hz }));
-    job.reduction.modes = chosen;
+    if let Some(CutOff { up_to_hz, .. }) = cut_off(scene) {
+        job.reduction.modes = Some(ModeSelection::UpTo { up_to_hz }.into());
+    }
 }
 
 pub(in crate::plan) fn k3(scene: &Scene<'_>, _: Option<&Facts>) -> Decision {
@@ -88,7 +89,9 @@ pub(in crate::plan) fn k5(scene: &Scene<'_>, facts: Option<&Facts>) -> Decision 
 }
 
 pub(in crate::plan) fn k11(scene: &Scene<'_>, _: Option<&Facts>) -> Decision {
+    let is_accepted = matches!(scene.job.reduction.modes, Some(ModesJob::Accepted { .. }));
     match (cut_off(scene), scene.boundary_of_modes()) {
+        (Some(_), _) if is_accepted => Decision::left_out("modes above those with which what the scene accepts is met"),
         (Some(CutOff { factor, up_to_hz }), _) => Decision::left_out(format!(
             "modes above {} Hz, {} times the end of the band",
             quantity(up_to_hz, 5),

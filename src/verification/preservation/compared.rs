@@ -22,6 +22,7 @@ use super::asked::Asked;
 use super::outcome::Preservation;
 use super::policy::{Motion, Plan};
 use super::shift::shift;
+use super::unmade::{Unmade, unmade_check};
 use super::{counts, interfaces, mac, response, sizes, statics};
 
 /// The comparison for the report, and the checks that follow from it.
@@ -29,14 +30,16 @@ use super::{counts, interfaces, mac, response, sizes, statics};
 pub struct Compared {
     /// The reduced model compared with the full one.
     pub report: Preservation,
-    /// M-06, M-15, M-17, M-20, M-21, M-24 and M-29 to M-31, as far as they were made.
+    /// M-06, M-15, M-17, M-20, M-21, M-24 and M-29 to M-31, as far as they were made, and M-33 where one could not be.
     pub checks: Vec<Check>,
+    /// Comparisons that could not be made.
+    pub unmade: Vec<Unmade>,
 }
 
 /// Compares the reduced with the full model; `analysis` is the structure of K_II.
 ///
 /// # Errors
-/// No memory. A comparison that the arithmetic cannot make is left out, and the report names it.
+/// No memory. A comparison that the arithmetic cannot make is left out, the report names it, and M-33 counts it.
 pub fn preservation(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> Result<Compared> {
     preservation_of_file((evidence, evidence), analysis, job)
 }
@@ -53,6 +56,7 @@ pub fn preservation_of_file(
 ) -> Result<Compared> {
     let plan = Plan::new(evidence, analysis, job);
     let mut compared = measured(evidence, analysis, &plan)?;
+    compared.checks.extend(unmade_check(&compared.unmade));
     let report = &compared.report;
     let lacking = job.accepted().statics.and_then(|_| named_loads::lacking(own));
     let accuracy = Asked { evidence, job, plan: &plan, report, lacking }.measures();
@@ -88,12 +92,13 @@ const TOGETHER_UP_TO: usize = 50_000;
 
 impl Compared {
     /// Keeps a result, or notes what could not be compared; only a lack of memory ends the run.
-    fn kept<T>(&mut self, what: &str, result: Result<T>) -> Result<Option<T>> {
+    pub(super) fn kept<T>(&mut self, what: &str, result: Result<T>) -> Result<Option<T>> {
         match result {
             Ok(value) => Ok(Some(value)),
             Err(error @ Error::OutOfMemory { .. }) => Err(error),
             Err(error) => {
                 self.report.not_compared.push(format!("{what}: {error}"));
+                self.unmade.push(Unmade::of(what, &error));
                 Ok(None)
             }
         }
@@ -115,7 +120,7 @@ impl Compared {
     }
 
     /// The full model under each boundary of the plan, counted where counts are made.
-    fn references(
+    pub(super) fn references(
         &mut self,
         evidence: &Evidence<'_>,
         analysis: &Analysis,

@@ -9,6 +9,7 @@
 //! scan         where between its samples the response errs most
 //! sizes        these errors for a smaller basis
 //! asked        the largest of them, and what the scene accepts          M-29 to M-31
+//! unmade       comparisons that the matrices have no answer for         M-33
 //! ```
 //! Every answer of the full model comes from the full sparse matrices, and its residual is checked. The factor of K_II,
 //! which exists already, only speeds this up. A costly comparison that the job does not ask for is left out, and the report
@@ -21,6 +22,7 @@ mod boundaries;
 mod boundary;
 mod compared;
 mod counts;
+mod enough;
 mod extended;
 mod full;
 mod interfaces;
@@ -36,11 +38,14 @@ mod scan;
 mod shift;
 mod sizes;
 mod statics;
+mod unmade;
 
 pub use accuracy::{Accuracy, AccuracyMeasure, LimitSource};
 pub use compared::{Compared, preservation, preservation_of_file};
+pub use enough::fewest_modes;
 pub use outcome::{
     BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
     ResponseComparison, ResponseSample, SizeError,
 };
 pub use policy::{Motion, Plan};
+pub use unmade::{Unmade, unmade_check};

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::accuracy::Accuracy;
+use super::accuracy::{Accuracy, AccuracyMeasure, LimitSource};
 
 /// Reduced against full model.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -28,6 +28,15 @@ pub struct Preservation {
     pub band_hz: Option<[f64; 2]>,
     /// The largest errors, each with its limit: the accuracy of the reduced model for the scene.
     pub accuracy: Vec<Accuracy>,
+}
+
+impl Preservation {
+    /// Whether every limit of the scene is met that more modes could meet.
+    pub fn modes_are_enough(&self) -> bool {
+        let of_modes =
+            |accuracy: &&Accuracy| accuracy.set_by == LimitSource::Scene && accuracy.measure != AccuracyMeasure::Static;
+        self.accuracy.iter().filter(of_modes).all(Accuracy::is_met)
+    }
 }
 
 /// One retained mode in the full and in the reduced model.

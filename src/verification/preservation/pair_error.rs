@@ -39,6 +39,43 @@ pub(super) fn worst_pair(full: &Response, reduced: &Response) -> PairError {
     worst
 }
 
+/// Where between two frequencies the responses of a pair pass nearest to nothing, and how far they differ there.
+#[derive(Clone, Copy)]
+pub(super) struct Dip {
+    /// Place between the two, from 0 to 1.
+    pub(super) place: f64,
+    pub(super) decibel: f64,
+}
+
+/// The worst dip of all pairs if responses, full and reduced, moved in straight lines between two frequencies.
+///
+/// An antiresonance of a pair is as narrow as its response happens to pass by zero in the complex plane, and no damping widens it. From one
+/// frequency to the next the response itself moves by little, so that its chord passes by zero where the response does.
+pub(super) fn worst_dip([full, reduced]: [[&Response; 2]; 2]) -> Dip {
+    let mut worst = Dip { place: 0.5, decibel: 0.0 };
+    for j in 0..full[0].n() {
+        for i in 0..=j {
+            let chords = [full, reduced].map(|ends| ends.map(|response| response.get(i, j)));
+            for place in chords.into_iter().filter_map(nearest_to_zero) {
+                let on = |[a, b]: [c64; 2]| a + (b - a) * place;
+                let floor = full.map(|response| floor(response, i, j)).into_iter().fold(0.0, f64::max);
+                let decibel = decibel(on(chords[0]), on(chords[1]), floor);
+                if dense::worse(decibel, worst.decibel) {
+                    worst = Dip { place, decibel };
+                }
+            }
+        }
+    }
+    worst
+}
+
+/// The place on a chord, between 0 and 1, that is nearest to zero; none where that is one of its ends.
+fn nearest_to_zero([a, b]: [c64; 2]) -> Option<f64> {
+    let way = b - a;
+    let (ahead, length) = (-(a.re * way.re + a.im * way.im), way.norm_sqr());
+    (ahead > 0.0 && ahead < length).then(|| ahead / length)
+}
+
 /// Error of a response in dB: the difference of the levels or, where that is larger, the level that the complex
 /// difference adds, so that a wrong phase counts too.
 fn decibel(full: c64, reduced: c64, floor: f64) -> f64 {
@@ -51,6 +88,13 @@ fn decibel(full: c64, reduced: c64, floor: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn chords_are_nearest_to_zero_where_they_cross_an_axis() {
+        assert_eq!(nearest_to_zero([c64::new(1.0, 0.125), c64::new(-3.0, 0.125)]), Some(0.25));
+        assert_eq!(nearest_to_zero([c64::new(1.0, 0.0), c64::new(2.0, 0.0)]), None);
+        assert_eq!(nearest_to_zero([c64::new(1.0, 1.0); 2]), None);
+    }
 
     #[test]
     fn decibels_count_levels_and_phases() {

@@ -1,6 +1,9 @@
 //! Where between its samples the response errs most.
 //!
-//! An error peaks at resonances and antiresonances, which damping makes η f wide: steps of a quarter of that pass over none.
+//! An error peaks at resonances, which damping makes η f wide, so that steps of a quarter of that pass over none, and at antiresonances.
+//! Those of two dofs may be narrower: the response passes by zero in the complex plane, and is small only while it is near. Between two points
+//! of the scan it moves almost straight, so that its chord shows where it passes by, and the place is followed.
+//!
 //! A sample costs solves with the full model. A point of the scan costs two small products, because the full model as it is
 //! known so far is a dense pencil in spectral form. The peaks become samples, so that what the scan finds is an answer of the full
 //! model before it is told.
@@ -9,7 +12,7 @@ use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
 use super::extended::Response;
-use super::pair_error::worst_pair;
+use super::pair_error::{Dip, worst_dip, worst_pair};
 use crate::dense;
 use crate::eigen::Spectral;
 
@@ -23,6 +26,17 @@ const MIN_POINTS: usize = 256;
 const MAX_FLOPS: f64 = 1e10;
 /// Peaks that become samples.
 const MAX_PEAKS: usize = 12;
+/// Intervals whose chords pass by zero that are followed at most.
+const MAX_DIPS: usize = 16;
+/// Share of the largest error at the points below which a chord shows nothing that would be the largest: it is off by what the response
+/// bends, a sixteenth of a resonance.
+const HIDDEN: f64 = 0.8;
+/// Steps after which a place that chords show is known: each chord is shorter than the one before by half or more.
+const CHORDS: usize = 10;
+/// How near the end of an interval its next point may lie.
+const NEAREST: f64 = 0.05;
+/// Intervals that share their ends, and are worked off by one thread.
+const RUN: usize = 32;
 /// Steps of the golden section, each of which leaves 0.62 of the interval: 1e-3 of two steps of the scan.
 const SECTIONS: usize = 15;
 
@@ -53,17 +67,64 @@ impl Scan<'_> {
         let n_steps = self.n_steps(decades);
         let step = decades / n_steps as f64;
         let at = |i: usize| if i == n_steps { high } else { low * (step * i as f64).exp() };
-        let errors: Vec<f64> = (0..=n_steps).into_par_iter().map(|i| self.decibel(at(i))).collect();
+        let (errors, dips) = self.walked(n_steps, &at);
         let error = |i: Option<usize>| i.and_then(|i| errors.get(i)).copied().unwrap_or(f64::NEG_INFINITY);
         let is_peak = |i: &usize| error(Some(*i)) >= error(i.checked_sub(1)) && error(Some(*i)) > error(Some(i + 1));
-        let mut tops: Vec<usize> = (0..=n_steps).filter(is_peak).collect();
-        tops.sort_by(|a, b| errors[*b].total_cmp(&errors[*a]).then(a.cmp(b)));
-        tops.truncate(MAX_PEAKS);
+        let tops = highest((0..=n_steps).filter(is_peak), &|i| errors[i], MAX_PEAKS);
+        let least = HIDDEN * errors.iter().copied().fold(0.0, f64::max);
+        let is_dip = |i: &usize| dips[*i].decibel > errors[*i].max(errors[i + 1]).max(least);
+        let hidden = highest((0..n_steps).filter(is_dip), &|i| dips[i].decibel, MAX_DIPS);
         let sharpened = tops.par_iter().map(|i| self.top([at(i.saturating_sub(1)), at((i + 1).min(n_steps))]));
-        let sharpened: Vec<(f64, f64)> = sharpened.collect();
-        let largest_db =
-            sharpened.iter().fold(0.0, |worst, top| if dense::worse(top.1, worst) { top.1 } else { worst });
-        Scanned { peaks_hz: sharpened.into_iter().map(|top| top.0).collect(), largest_db, step }
+        let mut found: Vec<(f64, f64)> = sharpened.collect();
+        found.par_extend(hidden.par_iter().map(|i| self.followed([at(*i), at(i + 1)])));
+        found.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
+        found.truncate(MAX_PEAKS);
+        let largest_db = found.iter().fold(0.0, |worst, top| if dense::worse(top.1, worst) { top.1 } else { worst });
+        Scanned { peaks_hz: found.into_iter().map(|top| top.0).collect(), largest_db, step }
+    }
+
+    /// The error at every point, and the worst dip of every interval between two.
+    fn walked(&self, n_steps: usize, at: &(dyn Fn(usize) -> f64 + Sync)) -> (Vec<f64>, Vec<Dip>) {
+        let starts: Vec<usize> = (0..n_steps).step_by(RUN).collect();
+        let run = |start: &usize| {
+            let end = (start + RUN).min(n_steps);
+            let mut before = self.point(at(*start));
+            let (mut errors, mut dips) = (vec![before.decibel()], Vec::new());
+            for i in start + 1..=end {
+                let next = self.point(at(i));
+                dips.push(before.dip_to(&next));
+                errors.push(next.decibel());
+                before = next;
+            }
+            // The last point is the first of the run that follows.
+            if end < n_steps {
+                errors.pop();
+            }
+            (errors, dips)
+        };
+        let runs: Vec<(Vec<f64>, Vec<Dip>)> = starts.par_iter().map(run).collect();
+        let (errors, dips): (Vec<Vec<f64>>, Vec<Vec<Dip>>) = runs.into_iter().unzip();
+        (errors.concat(), dips.concat())
+    }
+
+    /// The largest error on the way to where chords pass by zero, and its frequency.
+    fn followed(&self, [low, high]: [f64; 2]) -> (f64, f64) {
+        let [mut low, mut high] = [low, high].map(|hz| self.point(hz));
+        let mut largest = (low.hz, 0.0);
+        for _ in 0..CHORDS {
+            let place = low.dip_to(&high).place.clamp(NEAREST, 1.0 - NEAREST);
+            let next = self.point(low.hz + place * (high.hz - low.hz));
+            let error = next.decibel();
+            if dense::worse(error, largest.1) {
+                largest = (next.hz, error);
+            }
+            if low.dip_to(&next).decibel > next.dip_to(&high).decibel {
+                high = next;
+            } else {
+                low = next;
+            }
+        }
+        largest
     }
 
     fn n_steps(&self, decades: f64) -> usize {
@@ -74,11 +135,15 @@ impl Scan<'_> {
         ((STEPS_IN_A_PEAK * decades / self.eta).ceil() as usize).clamp(1, MAX_POINTS.min(dear))
     }
 
+    fn point(&self, hz: f64) -> Point {
+        let [full, reduced] =
+            [self.full, self.reduced].map(|spectral| Response::of(spectral, self.evidence, hz, self.eta));
+        Point { hz, full, reduced }
+    }
+
     /// The error of the worst pair at a frequency, in dB.
     fn decibel(&self, frequency_hz: f64) -> f64 {
-        let [full, reduced] =
-            [self.full, self.reduced].map(|spectral| Response::of(spectral, self.evidence, frequency_hz, self.eta));
-        worst_pair(&full, &reduced).decibel
+        self.point(frequency_hz).decibel()
     }
 
     /// The frequency in an interval at which the error is largest, by golden section, and the error there.
@@ -99,4 +164,30 @@ impl Scan<'_> {
         }
         if points[0].1 > points[1].1 { points[0] } else { points[1] }
     }
+}
+
+/// Both responses at a frequency.
+struct Point {
+    hz: f64,
+    full: Response,
+    reduced: Response,
+}
+
+impl Point {
+    /// The error of the worst pair, in dB.
+    fn decibel(&self) -> f64 {
+        worst_pair(&self.full, &self.reduced).decibel
+    }
+
+    fn dip_to(&self, next: &Self) -> Dip {
+        worst_dip([[&self.full, &next.full], [&self.reduced, &next.reduced]])
+    }
+}
+
+/// The intervals or points of the highest values, at most so many, in descending order.
+fn highest(all: impl Iterator<Item = usize>, value: &dyn Fn(usize) -> f64, at_most: usize) -> Vec<usize> {
+    let mut all: Vec<usize> = all.collect();
+    all.sort_by(|a, b| value(*b).total_cmp(&value(*a)).then(a.cmp(b)));
+    all.truncate(at_most);
+    all
 }

@@ -31,13 +31,22 @@ pub(super) fn size_errors(
     if references.is_empty() && response.is_none() {
         return Ok(Vec::new());
     }
-    let n_modes = evidence.basis.coordinates.iter().filter(|coordinate| is_mode(coordinate)).count();
+    let n_modes = n_modes(evidence);
     let mut counts: Vec<usize> = (0..POINTS).map(|i| i * n_modes / (POINTS - 1)).collect();
     counts.dedup();
     counts.into_iter().map(|count| size_error(evidence, references, response, (count, band_hz))).collect()
 }
 
-fn size_error(
+/// Modes in the basis.
+pub(super) fn n_modes(evidence: &Evidence<'_>) -> usize {
+    evidence.basis.coordinates.iter().filter(|coordinate| is_mode(coordinate)).count()
+}
+
+/// The error of the reduced model cut down to its first `n_modes` modes.
+///
+/// # Errors
+/// A reduced pencil that is not definite.
+pub(super) fn size_error(
     evidence: &Evidence<'_>,
     references: &[Reference],
     response: Option<&FullResponse>,

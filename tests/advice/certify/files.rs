@@ -5,6 +5,12 @@ use supel::cli::ExitCode;
 use supel_testing::place::{Place, supel};
 
 use super::{Pairs, bar, lowest, place_of};
+#[cfg(feature = "hdf5")]
+use {
+    super::pairs_of,
+    supel_models::{Material, brick},
+    supel_testing::pencil::{eigen, matrices},
+};
 
 /// What is said of a result, without the digest of its file and what its numbers are called.
 fn answer(place: &Place, result: &str, values: [&str; 2]) -> Value {
@@ -70,4 +76,87 @@ fn shapes_and_frequencies_in_one_hdf5_file() {
     drop(file);
     let place_in = |name: &str| format!("{}:/{name}", place.text("modes.h5"));
     assert_eq!(answer(&place, &place_in("V"), ["--hz", &place_in("f")]), expected);
+}
+
+/// All modes of a model are a square dataset, which looks alike as MATLAB stores it and as h5py does: the residual tells.
+#[cfg(feature = "hdf5")]
+#[test]
+fn a_square_dataset_is_turned_by_its_residual() {
+    let model = brick([2, 1, 1], [1.0, 0.4, 0.3], &Material::STEEL_SI);
+    let [k, m] = matrices(&model);
+    // A spectrum of the size of its middle, so that both of its ends are known.
+    let (lambda, shapes) = eigen(k.as_ref(), m.as_ref(), 1e9);
+    let (n, pairs) = (model.n, pairs_of(&lambda, &shapes));
+    let place = place_of(&model, &pairs);
+    let file = hdf5_metno::File::create(place.path("modes.h5")).expect("a file");
+    let by_rows: Vec<f64> = (0..n).flat_map(|row| pairs.shapes.iter().map(move |shape| shape[row])).collect();
+    for (name, values) in [("h5py", by_rows), ("matlab", pairs.shapes.concat())] {
+        file.new_dataset::<f64>().shape([n, n]).create(name).expect("a dataset").write_raw(&values).expect("written");
+    }
+    drop(file);
+    let place_in = |name: &str| format!("{}:/{name}", place.text("modes.h5"));
+    let [right, turned] =
+        ["h5py", "matlab"].map(|name| answer(&place, &place_in(name), ["--hz", &place.text("f.txt")]));
+    assert_eq!((&right["checks"], &right["pairs"]), (&turned["checks"], &turned["pairs"]));
+    assert!(!right["notes"].to_string().contains("square"), "{right}");
+    assert!(turned["notes"].to_string().contains("the dataset is square"), "{turned}");
+}
+
+/// Shapes in single precision are the same shapes, whatever file has them.
+#[test]
+fn shapes_in_single_precision() {
+    let pairs = pairs();
+    let place = place_of(&bar(), &pairs);
+    let (n, k) = (pairs.shapes[0].len(), pairs.shapes.len());
+    let values: Vec<f32> = (0..n).flat_map(|row| pairs.shapes.iter().map(move |shape| shape[row] as f32)).collect();
+    let array = |descr: &str, bytes: Vec<u8>| {
+        let head = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({n}, {k}), }}\n");
+        let length = u16::try_from(head.len()).expect("short").to_le_bytes();
+        [b"\x93NUMPY\x01\x00".as_slice(), &length, head.as_bytes(), &bytes].concat()
+    };
+    place.write("little.npy", &array("<f4", values.iter().flat_map(|value| value.to_le_bytes()).collect()));
+    place.write("big.npy", &array(">f4", values.iter().flat_map(|value| value.to_be_bytes()).collect()));
+    let [little, big] =
+        ["little.npy", "big.npy"].map(|name| answer(&place, &place.text(name), ["--hz", &place.text("f.txt")]));
+    assert_eq!(little, big);
+    #[cfg(feature = "hdf5")]
+    {
+        let file = hdf5_metno::File::create(place.path("single.h5")).expect("a file");
+        file.new_dataset::<f32>().shape([n, k]).create("V").expect("a dataset").write_raw(&values).expect("written");
+        drop(file);
+        let in_file = answer(&place, &format!("{}:/V", place.text("single.h5")), ["--hz", &place.text("f.txt")]);
+        assert_eq!(little, in_file);
+    }
+}
+
+/// Modes in the columns of a matrix of OUTPUT4, as a PHG or PHA of Nastran: the only one of its file, or the one that is named.
+#[test]
+fn shapes_in_output4() {
+    let pairs = pairs();
+    let place = place_of(&bar(), &pairs);
+    let expected = answer(&place, &place.text("V.mtx"), ["--hz", &place.text("f.txt")]);
+    let matrix = |name: &str, columns: &[Vec<f64>]| {
+        let (n, k) = (columns[0].len(), columns.len());
+        let mut text = format!("{k:8}{n:8}{:8}{:8}{name:<8}1P,3E24.16\n", 2, 2);
+        for (at, column) in columns.iter().enumerate() {
+            text += &format!("{:8}{:8}{n:8}\n", at + 1, 1);
+            for line in column.chunks(3) {
+                line.iter().for_each(|value| text += &format!("{:>24}", format!("{value:.16E}")));
+                text += "\n";
+            }
+        }
+        text + &format!("{:8}{:8}{:8}\n{:>24}\n", k + 1, 1, 1, "1.0E0")
+    };
+    let shapes = matrix("PHG", &pairs.shapes);
+    place.write("one.op4", shapes.as_bytes());
+    place.write("two.op4", (matrix("OTHER", &pairs.shapes[..2]) + &shapes).as_bytes());
+    for name in ["one.op4", "one.op4:PHG", "two.op4:PHG"] {
+        assert_eq!(answer(&place, &place.text(name), ["--hz", &place.text("f.txt")]), expected, "{name}");
+    }
+    let [k, m] = ["K.mtx", "M.mtx"].map(|name| place.text(name));
+    let ended = supel(&["certify", &k, &m, &place.text("two.op4")]).expect(ExitCode::InputData);
+    assert!(ended.err.contains("E-MATRIX-AMBIGUOUS") && ended.err.contains("OTHER, PHG"), "{}", ended.err);
+    place.write("short.op4", matrix("PHG", &[vec![1.0; 4]]).as_bytes());
+    let ended = supel(&["certify", &k, &m, &place.text("short.op4")]).expect(ExitCode::InputData);
+    assert!(ended.err.contains("E-MODES-ROWS") && ended.err.contains("4 rows"), "{}", ended.err);
 }

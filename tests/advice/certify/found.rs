@@ -207,3 +207,19 @@ fn a_held_component_has_no_rigid_body_modes() {
     let found = document(&place, "", ExitCode::CheckFailed);
     assert!(of_kind(&found, "mode").is_empty(), "{found}");
 }
+
+/// Where no band is asked for, all that a result states is judged: shapes that are none do not end the band before them.
+#[test]
+fn noise_above_the_last_mode_is_invented() {
+    let all = lowest(&bar(), 14);
+    for n_right in [13, 8] {
+        let mut pairs = all.clone();
+        for (at, shape) in pairs.shapes.iter_mut().enumerate().skip(n_right) {
+            let noise = |row: usize| (12.9898 * (row + 1) as f64 + 78.233 * at as f64).sin() * 43758.5453;
+            shape.iter_mut().enumerate().for_each(|(row, value)| *value = noise(row).fract() - 0.5);
+        }
+        let found = document(&place_of(&bar(), &pairs), "", ExitCode::CheckFailed);
+        let expected: Vec<u64> = (n_right as u64 + 1..=14).collect();
+        assert_eq!((of_kind(&found, "invented"), verdict(&found, "C-02")), (expected, Some("fail")), "{found}");
+    }
+}

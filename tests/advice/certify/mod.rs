@@ -1,12 +1,16 @@
 //! `supel certify`: results that are right, and results with a mode lost, invented, repeated or inexact, each named with its frequency.
 
+mod digits;
 mod document;
 #[cfg(feature = "hdf5")]
 mod exudyn;
 mod files;
 mod found;
+mod left_out;
+mod reduced;
 mod refused;
 mod rigid;
+mod strayed;
 mod superelement;
 
 use faer::Mat;

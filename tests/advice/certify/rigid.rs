@@ -35,3 +35,28 @@ fn rigid_body_motion_with_a_frequency_is_told() {
     let found = document(&place_of(&bar(), &pairs), "", ExitCode::CheckFailed);
     assert_eq!((verdict(&found, "C-05"), of_kind(&found, "inexact")), (Some("fail"), vec![6]), "{found}");
 }
+
+/// What an iteration leaves of zeros is no end of a band: the highest of them lies among the others.
+#[test]
+fn a_result_of_rigid_body_modes_alone_is_certified() {
+    let all = lowest(&bar(), 7);
+    for stated in [[0.0; 6], [1.7e-4, 8.0e-5, 7.4e-5, 8.9e-5, 1.1e-4, 1.3e-4], [1e-3; 6]] {
+        let mut pairs = all.clone().without(6);
+        pairs.hertz = stated.to_vec();
+        let place = place_of(&bar(), &pairs);
+        let found = document(&place, "--strict", ExitCode::Done);
+        assert_eq!((&found["verdict"], of_kind(&found, "rigid-body").len()), (&"pass".into(), 6), "{found}");
+        assert_eq!((verdict(&found, "C-04"), verdict(&found, "C-05")), (Some("pass"), Some("pass")), "{found}");
+        // Asked for, the band ends among the zeros as well.
+        let found = document(&place, "--band 0,0.001", ExitCode::Done);
+        assert_eq!(missing(&found).len(), 0, "{found}");
+    }
+    // Five of them are not enough, and a frequency of a tenth of the first elastic one is none of rounding.
+    let pairs = all.clone().without(6).without(2);
+    let found = document(&place_of(&bar(), &pairs), "", ExitCode::CheckFailed);
+    assert_eq!(verdict(&found, "C-04"), Some("fail"), "{found}");
+    let mut pairs = all.clone().without(6);
+    pairs.hertz = vec![0.1 * all.hertz[6]; 6];
+    let found = document(&place_of(&bar(), &pairs), "", ExitCode::CheckFailed);
+    assert_eq!((verdict(&found, "C-05"), of_kind(&found, "inexact").len()), (Some("fail"), 6), "{found}");
+}

@@ -14,10 +14,10 @@ use super::{array, assert_near};
 
 /// A superelement as another program would write it.
 #[derive(Clone)]
-struct Foreign {
-    basis: Mat<f64>,
-    stiffness: Mat<f64>,
-    mass: Mat<f64>,
+pub(super) struct Foreign {
+    pub(super) basis: Mat<f64>,
+    pub(super) stiffness: Mat<f64>,
+    pub(super) mass: Mat<f64>,
 }
 
 fn projected(a: &Mat<f64>, basis: &Mat<f64>) -> Mat<f64> {
@@ -25,13 +25,13 @@ fn projected(a: &Mat<f64>, basis: &Mat<f64>) -> Mat<f64> {
 }
 
 impl Foreign {
-    fn of(model: &Model, basis: Mat<f64>) -> Self {
+    pub(super) fn of(model: &Model, basis: Mat<f64>) -> Self {
         let [k, m] = matrices(model);
         Self { stiffness: projected(&k, &basis), mass: projected(&m, &basis), basis }
     }
 
     /// Craig and Bampton's with some rows as its interface, by dense algebra: Ψ = [I; −K_II⁻¹K_IB  Φ], an interface last.
-    fn craig_bampton(model: &Model, interface: &[usize], n_modes: usize) -> Self {
+    pub(super) fn craig_bampton(model: &Model, interface: &[usize], n_modes: usize) -> Self {
         let [k, m] = matrices(model);
         let inner: Vec<usize> = (0..model.n).filter(|row| !interface.contains(row)).collect();
         let k_ii = part(k.as_ref(), &inner);
@@ -47,7 +47,7 @@ impl Foreign {
         Self::of(model, basis)
     }
 
-    fn write(&self, place: &Place) {
+    pub(super) fn write(&self, place: &Place) {
         let columns = |a: &Mat<f64>| -> Vec<Vec<f64>> {
             (0..a.ncols()).map(|j| (0..a.nrows()).map(|i| a[(i, j)]).collect()).collect()
         };
@@ -66,11 +66,11 @@ impl Foreign {
 }
 
 /// Nodes of the block at three corners of one end and one at the other, all of whose dofs are the interface.
-fn interface() -> Vec<usize> {
+pub(super) fn interface() -> Vec<usize> {
     [0, 2, 8, 44].into_iter().flat_map(|node| (3 * node..).take(3)).collect()
 }
 
-fn certify(place: &Place, rest: &str) -> Ended {
+pub(super) fn certify(place: &Place, rest: &str) -> Ended {
     let paths =
         ["K.mtx", "M.mtx", "psi.mtx", "khat.mtx", "mhat.mtx", "dofs.txt", "nodes.csv"].map(|name| place.text(name));
     let [k, m, psi, khat, mhat, dofs, nodes] = &paths;
@@ -81,14 +81,14 @@ fn certify(place: &Place, rest: &str) -> Ended {
 }
 
 #[track_caller]
-fn document(model: &Model, foreign: &Foreign, code: ExitCode) -> Value {
+pub(super) fn document(model: &Model, foreign: &Foreign, code: ExitCode) -> Value {
     let place = Place::with(model);
     foreign.write(&place);
     serde_json::from_str(&certify(&place, "--json").expect(code).out).expect("JSON")
 }
 
 /// Identifier, verdict and worst place of the checks that fail.
-fn failed(document: &Value) -> Vec<(String, String)> {
+pub(super) fn failed(document: &Value) -> Vec<(String, String)> {
     let checks = document["checks"].as_array().expect("checks").iter();
     let text = |check: &Value, key: &str| check[key].as_str().unwrap_or_default().to_owned();
     checks.filter(|check| check["verdict"] == "fail").map(|check| (text(check, "id"), text(check, "worst"))).collect()
@@ -115,10 +115,11 @@ fn a_right_one_is_certified_and_compared_at_its_interface() {
     for id in ["C-07", "C-08", "C-09", "M-06", "M-11", "M-12", "M-16", "M-17", "M-20", "M-23", "M-24", "M-25"] {
         assert!(ids.contains(&id), "{id} in {ids:?}");
     }
-    // The interface free, both comparisons say the same.
+    // The interface free, one comparison pairs by shape and the other by number, and of all pairings that one has the smallest
+    // largest difference.
     let [free, again] =
         [&found["free"], &preservation["boundaries"][0]].map(|line| line["worst_in_band"].as_f64().expect("a number"));
-    assert!((free - again).abs() <= 1e-6, "{free} and {again}");
+    assert!(free >= again - 1e-6 && again > 0.0, "{free} and {again}");
 }
 
 #[test]
@@ -150,6 +151,7 @@ fn a_basis_without_static_answers_fails_in_statics() {
     let found = document(&steel_brick(), &Foreign::of(&steel_brick(), basis), ExitCode::Done);
     let notes = found["preservation"]["not_compared"].to_string();
     assert!(notes.contains("does not carry the component as a rigid body"), "{notes}");
+    assert_eq!(super::verdict(&found, "M-33"), Some("warn"), "{found}");
     // Without its modes the same columns do not span what they have to.
     let found = failed(&document(&steel_brick(), &guyan_turned(), ExitCode::CheckFailed));
     assert!(found.iter().any(|(id, _)| id == "M-11"), "{found:?}");

@@ -4,7 +4,7 @@ use supel::error::Error;
 use supel::input::read;
 use supel::job::{Layout, ModelJob};
 
-use super::{fixture, job, pair};
+use super::{fixture, job, pair, stiffness};
 
 /// The title of a Harwell-Boeing file may be anything, the start of a DMIG entry for instance.
 #[test]
@@ -35,4 +35,19 @@ fn a_layout_overrides_what_the_content_says() {
         assert!(read(&ModelJob { layout: Some(layout), ..job(&path, &path) }).is_err(), "{layout:?}");
     }
     assert!(read(&ModelJob { layout: Some(Layout::MatrixMarket), ..job(&path, &path) }).is_ok());
+}
+
+/// What a second run appends to a file has the names of the first.
+#[test]
+fn of_two_matrices_with_one_name_none_is_taken() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, member) in [("dense_text.op4", "KAA"), ("dense_little.op4", "KAA")] {
+        let mut content = std::fs::read(fixture(name)).expect("a fixture");
+        content.extend_from_within(..);
+        std::fs::write(folder.path().join(name), content).expect("written");
+        for named in [name.to_owned(), format!("{name}:{member}")] {
+            let error = stiffness(&folder.path().join(named)).expect_err("two matrices");
+            assert!(matches!(&error, Error::MatrixNameTwice { name, n: 2, .. } if name == member), "{error}");
+        }
+    }
 }

@@ -71,6 +71,23 @@ fn every_file_cut_at_every_byte() {
     }
 }
 
+/// A checksum tells damage from another matrix: what is read of a packed file is the sound matrix, or nothing.
+#[test]
+fn packed_files_with_a_changed_bit_hold_no_other_matrix() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["sparse_deflated.mat", "k_csr.npz"] {
+        let content = std::fs::read(fixture(name)).expect("a fixture");
+        let sound = stiffness(&written(folder.path(), name, &content)).expect("a matrix");
+        for (at, bit) in (0..content.len()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
+            let mut changed = content.clone();
+            changed[at] ^= 1 << bit;
+            if let Ok(found) = stiffness(&written(folder.path(), name, &changed)) {
+                assert_eq!(found, sound, "{name}: bit {bit} of byte {at}");
+            }
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 

@@ -6,6 +6,8 @@ mod converted;
 mod corpus;
 mod damage;
 #[cfg(feature = "hdf5")]
+mod halves;
+#[cfg(feature = "hdf5")]
 mod hdf5;
 #[cfg(feature = "hdf5")]
 mod oracle;

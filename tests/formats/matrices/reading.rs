@@ -4,15 +4,17 @@ use supel::dofs::{Direction, Dof};
 use supel::error::Error;
 use supel::input::{Digits, read};
 use supel::job::ModelJob;
+use supel::sparse::Given;
 
 use super::{fixture, job, pair, stiffness};
 
 /// Files that hold K, or K and M, in doubles; of one that holds several matrices both are taken by their names alone.
-const FILES: [[&str; 2]; 23] = [
+const FILES: [[&str; 2]; 24] = [
     ["k_csr.npz", "m_csc.npz"],
     ["k_csc.npz", "m_csc.npz"],
     ["k_coo.npz", "m_csc.npz"],
     ["k_bsr.npz", "m_csc.npz"],
+    ["k_bsr_wide.npz", "m_csc.npz"],
     ["k_dia.npz", "m_csc.npz"],
     ["dense.npz", "dense.npz"],
     ["dense.npz:K", "dense.npz:M"],
@@ -46,6 +48,15 @@ fn every_bit_is_that_of_matrix_market() {
         assert_eq!(input.stiffness.digest.len(), 64, "{k}");
         assert!(input.dofs.is_none(), "{k} names no rows");
     }
+}
+
+/// Half precision has three digits, whatever its numbers are.
+#[test]
+fn arrays_in_half_precision() {
+    let reference = pair("k_short.mtx", "m_short.mtx").expect("the reference");
+    let half = pair("k_half.npy", "m_short.mtx").expect("half precision");
+    assert!(half.stiffness.matrix == reference.stiffness.matrix, "{:?}", half.stiffness.matrix);
+    assert_eq!(half.stiffness.digits.significant, 3);
 }
 
 /// `array` lists every value of a general matrix, and those from the diagonal down of a symmetric one.
@@ -96,7 +107,7 @@ fn dmig_brings_its_dof_map() {
         assert!(input.stiffness.matrix == reference.stiffness.matrix, "{k}: {:?}", input.stiffness.matrix);
         assert!(input.mass.matrix == reference.mass.matrix, "{m}: {:?}", input.mass.matrix);
         assert_eq!(input.dofs.as_deref(), Some(labels(CHAIN).as_slice()), "{k}");
-        assert!(!input.stiffness.notes.mirrored, "the form says that one triangle stands for both");
+        assert_eq!(input.stiffness.notes.given, Given::Whole, "the form says that one triangle stands for both");
     }
     let unsymmetric = stiffness(&fixture("k.rua")).expect("whole");
     assert!(unsymmetric == reference.stiffness.matrix);
@@ -119,9 +130,8 @@ fn matrix_lines_of_abaqus_bring_their_dof_map() {
     let mut expected = labels(CHAIN);
     expected.rotate_right(1);
     assert_eq!(input.dofs, Some(expected));
-    assert!(
-        input.stiffness.notes.mirrored && input.notes.iter().any(|note| note.to_string().contains("6 rows are named"))
-    );
+    assert!(matches!(input.stiffness.notes.given, Given::EitherOrder { .. }), "{:?}", input.stiffness.notes);
+    assert!(input.notes.iter().any(|note| note.to_string().contains("6 rows are named")));
 }
 
 /// Rows that the matrices name are put in the order of a dof map; further ones of one matrix alone are in both.

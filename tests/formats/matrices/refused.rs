@@ -109,6 +109,58 @@ fn harwell_boeing_of_other_kinds() {
     assert_says(&altered("k.rsa", "        12        14", "        14        12"), "E-MATRIX-POINTER", &[]);
 }
 
+/// Whole numbers of files that declare them are kept to the last digit, or refused.
+#[test]
+fn whole_numbers_that_no_double_equals() {
+    let (kept, lost) = ("9007199254740994", "-9007199254740993");
+    let of_market = |kind: &str, number: &str, field: &str| {
+        let (head, lines) = match kind {
+            "array" => ("3 3", format!("{number}\n0\n0\n0\n1\n0\n0\n0\n1\n")),
+            _ => ("3 3 3", format!("1 1 {number}\n2 2 1\n3 3 1\n")),
+        };
+        format!("%%MatrixMarket matrix {kind} {field} general\n{head}\n{lines}")
+    };
+    let of_boeing = |number: &str, field: &str| {
+        let letters = if field == "integer" { "ISA" } else { "RSA" };
+        let formats = "(4I20)          (4I20)          (3I20)              ";
+        let line = |numbers: &[&str]| numbers.iter().map(|number| format!("{number:>20}")).collect::<String>() + "\n";
+        let [pointers, rows, values] = [&["1", "2", "3", "4"][..], &["1", "2", "3"], &[number, "1", "1"]].map(line);
+        format!("a\n 3 1 1 1\n{letters}           3 3 3 0\n{formats}\n{pointers}{rows}{values}")
+    };
+    let read = |content: String| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("k");
+        std::fs::write(&path, content).expect("written");
+        let matrix = supel::input::SingleMatrix { file: path, layout: None, dofs: None };
+        matrix.read(&supel::input::Allowance::of(None)).map(|read| read.input.matrix.get(0, 0).copied())
+    };
+    for kind in ["coordinate", "array"] {
+        assert_eq!(read(of_market(kind, kept, "integer")).expect("kept"), Some(9_007_199_254_740_994.0), "{kind}");
+        let error = read(of_market(kind, lost, "integer")).expect_err("no double");
+        assert_says(&error, "E-ENTRY", &[lost, "up to 2^53"]);
+        // A real number is the nearest double.
+        assert_eq!(read(of_market(kind, lost, "real")).expect("real"), Some(-9_007_199_254_740_992.0), "{kind}");
+    }
+    assert_eq!(read(of_boeing(kept, "integer")).expect("kept"), Some(9_007_199_254_740_994.0));
+    assert_says(&read(of_boeing(lost, "integer")).expect_err("no double"), "E-MATRIX-FORMAT", &[lost, "up to 2^53"]);
+    assert_eq!(read(of_boeing(lost, "real")).expect("real"), Some(-9_007_199_254_740_992.0));
+}
+
+/// The diagonal of a skew-symmetric matrix is nothing.
+#[test]
+fn skew_matrices_with_a_diagonal() {
+    let skew = |entry: &str| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("g.mtx");
+        let text = format!("%%MatrixMarket matrix coordinate real skew-symmetric\n3 3 2\n2 1 1\n{entry}\n");
+        std::fs::write(&path, text).expect("written");
+        let matrix = supel::input::SingleMatrix { file: path, layout: None, dofs: None };
+        matrix.read(&supel::input::Allowance::of(None))
+    };
+    assert_says(&skew("3 3 2.5").expect_err("refused"), "E-SKEW-DIAGONAL", &["g.mtx", "row 3", "2.5"]);
+    assert!(skew("3 3 0").is_ok(), "a zero that is written is nothing");
+}
+
 #[test]
 fn lines_of_abaqus_that_are_none() {
     let first = "1, 1, 1, 1, 2.0\n";

@@ -9,6 +9,7 @@ use crate::error::{Error, Result};
 use crate::input::banner::excerpt;
 use crate::input::source::{Source, read_error};
 use crate::linked;
+use crate::regular_file::digest_of_list;
 
 /// The longest line, with the lines that continue a keyword.
 const MAX_LINE_BYTES: usize = 1 << 16;
@@ -91,11 +92,7 @@ impl DeckLines {
 
     /// BLAKE3 of the included file; of their digests one below the other where there are several; none where there are none.
     pub(super) fn digest_of_included(&self) -> Option<String> {
-        match self.digests.as_slice() {
-            [] => None,
-            [digest] => Some(digest.clone()),
-            digests => Some(blake3::hash(digests.join("\n").as_bytes()).to_hex().to_string()),
-        }
+        (!self.digests.is_empty()).then(|| digest_of_list(&self.digests))
     }
 
     /// The files that were included.
@@ -142,6 +139,18 @@ impl DeckLines {
         Ok(())
     }
 
+    /// Goes through the deck and what it includes, and leaves every line aside.
+    fn follow(&mut self) -> Result<()> {
+        while let Some(line) = self.next()? {
+            if is_keyword(line)
+                && let Some(file) = included_by(&Keyword::of(line))
+            {
+                self.include(file)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Puts the next line that is neither blank nor a comment behind the first bytes of the buffer; false at the end of the deck.
     fn next_line(&mut self, kept: usize) -> Result<bool> {
         while let Some(open) = self.open.last_mut() {
@@ -185,18 +194,20 @@ pub(super) fn is_keyword(line: &[u8]) -> bool {
 /// The files that a deck includes, those that can be told.
 pub(in crate::input::mesh) fn included_files(path: &Path) -> Vec<PathBuf> {
     let Ok(mut lines) = DeckLines::open(path) else { return Vec::new() };
-    while let Ok(Some(line)) = lines.next() {
-        if is_keyword(line) {
-            let keyword = Keyword::of(line);
-            if let Some(file) = included_by(&keyword)
-                && lines.include(file).is_err()
-            {
-                break;
-            }
-        }
-    }
+    // What comes before a line that cannot be read is included all the same.
+    let _ = lines.follow();
     let mut seen = HashSet::new();
     lines.included().iter().filter(|file| seen.insert(file.as_path())).cloned().collect()
+}
+
+/// BLAKE3 of the files that a deck includes now, as a reading of its mesh records it; none where it includes none.
+///
+/// # Errors
+/// A file that cannot be read, an inclusion that is refused.
+pub(in crate::input::mesh) fn digest_of_included(path: &Path) -> Result<Option<String>> {
+    let mut lines = DeckLines::open(path)?;
+    lines.follow()?;
+    Ok(lines.digest_of_included())
 }
 
 /// The file that a keyword takes its lines from.

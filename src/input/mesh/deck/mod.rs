@@ -13,6 +13,6 @@ mod scope;
 mod sections;
 mod surfaces;
 
-pub(super) use lines::included_files;
+pub(super) use lines::{digest_of_included, included_files};
 pub(in crate::input) use read::n_incompatible;
 pub(super) use read::{read, sureness};

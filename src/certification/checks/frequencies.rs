@@ -1,0 +1,119 @@
+//! Frequencies, and what digits and springs make of them.
+
+use super::subject::{OfPair, Subject, worst};
+use crate::certification::judgement::{MOST_OF_DIGITS, NOT_RIGID, of_digits_in_energy, of_digits_in_frequency};
+use crate::eigen::NOTICED_BAR;
+use crate::modes::Component;
+use crate::number::quantity;
+use crate::verification::check::{Check, Limits};
+use crate::verification::limits::{self, Known, UNKNOWN};
+
+/// Relative difference of a frequency that digits excuse without a warning, and at all.
+const WITHIN_DIGITS: [f64; 2] = [1e-3, 1e-2];
+
+/// λ of rigid-body motion relative to the first elastic mode that practice does not see: a thousandth of its frequency.
+const RIGID_ENERGY: f64 = 1e-6;
+
+impl Subject<'_> {
+    /// M-05: the rigid-body modes of the model, not those of the result.
+    pub(super) fn rigid_energy(&self) -> Option<Check> {
+        let Component { partition, rigid, .. } = self.component;
+        let first = self.completed.first_elastic?;
+        let errors = self.completed.modes.errors.iter();
+        let known = self.completed.modes.lambda.iter().zip(errors);
+        let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
+        let precision = partition.precision.stiffness.share;
+        let judged = limits::of_energy(
+            limits::energy_noise((partition, rigid), known, first),
+            precision / (f64::EPSILON + precision),
+        );
+        (rigid.count() > 0).then(|| Check {
+            id: "M-05",
+            name: "rigid-body motion costs no energy",
+            equation: "max qᵀKq / λ of the first elastic mode",
+            value: rigid.energy.largest_quotient / first,
+            limits: judged.limits,
+            fail_above: judged.fail_above,
+            worst: None,
+        })
+    }
+
+    /// M-09.
+    pub(super) fn data_precision(&self) -> Option<Check> {
+        let modes = self.elastic();
+        let is_empty = modes.is_empty();
+        let bars = modes.into_iter().map(|claim| (claim, 0.5 * self.measured.errors[claim].data_bar));
+        let (value, at) = worst(bars);
+        (!is_empty).then(|| Check {
+            id: "M-09",
+            name: "digits of the data suffice",
+            equation: "max ½ (|xᵀEx| + ε_M λ|x|ᵀ|M||x|) / λ, E roundings of K: relative error bar of a frequency",
+            value,
+            limits: Limits { engineering: NOTICED_BAR, ..Limits::default() },
+            fail_above: UNKNOWN,
+            worst: at.map(|claim| self.name(claim)),
+        })
+    }
+
+    /// C-01.
+    pub(super) fn frequencies(&self) -> Option<Check> {
+        let found = OfPair::worst(self.elastic().into_iter().map(|claim| self.frequency(claim)))?;
+        Some(Check {
+            id: "C-01",
+            name: "frequencies are those of the full model",
+            equation: "max |f − f_model| / f_model, with the error bar that the residual leaves",
+            value: found.value,
+            limits: found.limits.capped(0.0, WITHIN_DIGITS[0]),
+            // What digits explain is no failure up to a hundredth: it warns.
+            fail_above: WITHIN_DIGITS[0].max(found.limits.data.min(WITHIN_DIGITS[1])),
+            worst: Some(self.told_frequency(found.claim)),
+        })
+    }
+
+    /// How far a frequency is off, and what is allowed of that by digits.
+    fn frequency(&self, claim: usize) -> OfPair {
+        let pair = &self.judged.pairs[claim];
+        let mode = pair.mode_hz.unwrap_or(pair.shape_hz);
+        let difference = pair.stated_hz.map_or(0.0, |stated| (stated / mode - 1.0).abs());
+        // The frequency of a pair that is another mode than its quotient says is known without its own bar.
+        let bar = if mode == pair.shape_hz { 0.5 * self.judged.residual_bars[claim] } else { 0.0 };
+        let own = (pair.shape_hz / mode - 1.0).abs();
+        // Rounding of λ is twice that of its root; of a frequency it is what it is, and that of a shape acts by its square. What the
+        // matrices leave open is no fault of the result: M-09 judges it.
+        let of_shape = 0.5 * self.of_digits_in_energy(claim).powi(2);
+        let data = self.claims.value_rounding[claim] + of_shape + of_digits_in_frequency(self.measured, claim);
+        let limits = Limits { engineering: NOTICED_BAR, arithmetic: 0.0, data };
+        OfPair { claim, value: difference.max(own) + bar, limits }
+    }
+
+    fn told_frequency(&self, claim: usize) -> String {
+        let pair = &self.judged.pairs[claim];
+        match pair.mode_hz.filter(|mode| *mode != pair.shape_hz) {
+            Some(mode) => format!("{}, which is mostly that of {} Hz", self.name(claim), quantity(mode, 6)),
+            None => format!("{}, whose shape has {} Hz", self.name(claim), quantity(pair.shape_hz, 6)),
+        }
+    }
+
+    /// C-05.
+    pub(super) fn rigid_frequencies(&self) -> Option<Check> {
+        let first = self.completed.first_elastic?;
+        let is_rigid = |claim: &usize| self.judged.pairs[*claim].mode_hz == Some(0.0);
+        let rigid: Vec<usize> = (0..self.claims.count()).filter(is_rigid).collect();
+        let stated = |claim: usize| self.claims.lambda.as_ref().map_or(self.measured.lambda[claim], |all| all[claim]);
+        let of_pair = |claim: usize| {
+            let data = of_digits_in_energy(self.measured, claim, first);
+            let limits = Limits { engineering: RIGID_ENERGY, arithmetic: 0.0, data }.capped(0.0, MOST_OF_DIGITS);
+            OfPair { claim, value: stated(claim).abs() / first, limits }
+        };
+        let found = OfPair::worst(rigid.into_iter().map(of_pair))?;
+        Some(Check {
+            id: "C-05",
+            name: "rigid-body modes have no frequency",
+            equation: "max |λ| / λ of the first elastic mode",
+            value: found.value,
+            limits: found.limits,
+            fail_above: NOT_RIGID.max(found.limits.data),
+            worst: Some(self.name(found.claim)),
+        })
+    }
+}

@@ -1,0 +1,50 @@
+//! What is said of a result besides the checks.
+
+use crate::certification::claims::Claims;
+use crate::certification::judgement::Judged;
+use crate::certification::pair::PairKind;
+use crate::eigen::NOTICED_BAR;
+use crate::modes::Component;
+use crate::number::counted;
+
+/// What is said besides the checks, one sentence each.
+pub(in crate::certification) fn notes(component: Component<'_>, claims: &Claims, judged: &Judged) -> Vec<String> {
+    let mut notes = Vec::new();
+    if judged.n_cut > 0 {
+        notes.push(format!(
+            "the result ends inside a group of modes of one frequency: {} of it more in the model; ask for {} more",
+            counted(judged.n_cut, "mode is", "modes are"),
+            counted(judged.n_cut, "mode", "modes"),
+        ));
+    }
+    if component.rigid.n_massless > 0 {
+        notes.push(format!(
+            "{} of the model without mass: no program can find them",
+            counted(component.rigid.n_massless, "rigid-body motion is", "rigid-body motions are")
+        ));
+    }
+    if claims.lambda.is_none() {
+        notes.push("the result has no frequencies: those that belong to its shapes are shown".to_owned());
+    }
+    notes.extend(order(judged));
+    notes
+}
+
+/// Frequencies that are all there and belong to other shapes.
+fn order(judged: &Judged) -> Option<String> {
+    let is_same = |a: f64, b: f64| (a / b - 1.0).abs() <= NOTICED_BAR;
+    let inexact = judged.pairs.iter().filter(|pair| pair.kind == PairKind::Inexact);
+    // A shape that has its own frequency is inexact for another reason.
+    let elsewhere = inexact.filter_map(|pair| Some([pair.stated_hz?, pair.shape_hz]));
+    let mut pairs: Vec<[f64; 2]> = elsewhere.filter(|[stated, own]| !is_same(*stated, *own)).collect();
+    let mut of_shapes: Vec<f64> = pairs.iter().map(|[_, own]| *own).collect();
+    pairs.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    of_shapes.sort_by(f64::total_cmp);
+    let are_all = pairs.iter().zip(&of_shapes).all(|([stated, _], own)| is_same(*stated, *own));
+    (pairs.len() > 1 && are_all).then(|| {
+        format!(
+            "the frequencies of {} are those of other shapes among them: shapes and frequencies are in different orders",
+            counted(pairs.len(), "pair", "pairs")
+        )
+    })
+}

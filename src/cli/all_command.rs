@@ -1,0 +1,104 @@
+//! What was typed after `supel reduce --all`, checked: the jobs of a folder or of an assembly, each with the command line that runs it alone.
+
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use clap::Parser;
+
+use super::assembly_command::joined;
+use super::assembly_file::AssemblyFile;
+use super::flags::{CommandLine, OutputFlags, RunFlags, Typed};
+use super::job_folder;
+use super::judging::Answer;
+use super::reduce_command::ReduceCommand;
+use super::threads::Threads;
+use crate::error::{Error, Result};
+
+/// Reduce many jobs.
+#[derive(Debug)]
+pub(super) struct AllCommand {
+    /// In the order in which they are admitted and shown.
+    pub(super) members: Vec<Member>,
+    /// Pairs of selections.
+    pub(super) joins: Vec<(String, String)>,
+    /// TOML documents of the folder that are no jobs.
+    pub(super) passed_over: Vec<PathBuf>,
+    pub(super) threads: Threads,
+    /// Memory for all that run at the same time, in bytes, where the command line says it.
+    pub(super) budget_bytes: Option<u64>,
+    pub(super) answer: Answer,
+}
+
+/// One of the jobs.
+#[derive(Debug)]
+pub(super) struct Member {
+    pub(super) name: String,
+    pub(super) document: PathBuf,
+    /// The command line that reduces it, without the program's name, threads and memory.
+    pub(super) words: Vec<OsString>,
+    /// The checked command; where there is none, its run says why.
+    pub(super) command: Option<Box<ReduceCommand>>,
+}
+
+impl AllCommand {
+    /// # Errors
+    /// [`Error::NoJobs`]; a folder or a file that cannot be read; those of [`AssemblyFile::read`]; [`Error::ComponentTwice`].
+    pub(super) fn build(path: &Path, output: &OutputFlags, run: &RunFlags) -> Result<Self> {
+        let is_folder =
+            std::fs::metadata(path).map_err(|source| Error::Read { path: path.to_owned(), source })?.is_dir();
+        let (jobs, joins, passed_over) = if is_folder {
+            let found = job_folder::jobs_below(path)?;
+            (found.jobs, Vec::new(), found.passed_over)
+        } else {
+            let assembly = AssemblyFile::read(path)?;
+            let joins = assembly.joins.iter().map(|text| joined(text)).collect::<Result<_>>()?;
+            (assembly.jobs, joins, Vec::new())
+        };
+        if jobs.is_empty() {
+            return Err(Error::NoJobs { path: path.to_owned() });
+        }
+        let mut names = BTreeSet::new();
+        if let Some((twice, _)) = jobs.iter().find(|(name, _)| !names.insert(name.as_str())) {
+            return Err(Error::ComponentTwice { name: twice.clone() });
+        }
+        let memory_gib = run.memory_gib;
+        if let Some(value) = memory_gib.filter(|gib| !(*gib > 0.0 && gib.is_finite())) {
+            let key = "--memory-gib".to_owned();
+            return Err(Error::JobNumber { key, value, expected: "more than zero" });
+        }
+        Ok(Self {
+            members: jobs.into_iter().map(|(name, document)| Member::of(name, document, (output, run))).collect(),
+            joins,
+            passed_over,
+            threads: Threads::of(run.threads),
+            budget_bytes: memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64),
+            answer: match (output.json, output.quiet) {
+                (true, _) => Answer::Json,
+                (false, true) => Answer::Nothing,
+                (false, false) => Answer::Text,
+            },
+        })
+    }
+}
+
+impl Member {
+    fn of(name: String, document: PathBuf, (output, run): (&OutputFlags, &RunFlags)) -> Self {
+        let passed_on =
+            [("--allow-unverified", output.allow_unverified), ("--strict", output.strict), ("--force", run.force)];
+        let passed_on = passed_on.into_iter().filter(|(_, is_given)| *is_given).map(|(flag, _)| flag);
+        let mut words: Vec<OsString> = vec!["reduce".into(), document.clone().into(), "--json".into()];
+        words.extend(passed_on.map(OsString::from));
+        let command = checked(&words);
+        Self { name, document, words, command }
+    }
+}
+
+/// The command that words are, where they can be read and their job is one.
+fn checked(words: &[OsString]) -> Option<Box<ReduceCommand>> {
+    let words = std::iter::once(OsString::from("supel")).chain(words.iter().cloned());
+    match CommandLine::try_parse_from(words).ok()?.command {
+        Typed::Reduce(flags) => ReduceCommand::build(*flags).ok().map(Box::new),
+        _ => None,
+    }
+}

@@ -1,0 +1,95 @@
+//! Right results that are written with few digits.
+
+use supel::cli::ExitCode;
+
+use super::{Pairs, bar, certify, document, lowest, of_kind, place_of, verdict};
+use supel_models::transform::rounded as of_digits;
+use supel_testing::place::steel_brick;
+
+fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().expect("a number")
+}
+
+/// The lowest pairs, with shapes and frequencies of so many digits, rigid-body modes at zero.
+fn short(shapes: usize, frequencies: usize) -> Pairs {
+    let mut pairs = lowest(&bar(), 14);
+    pairs.hertz[..6].fill(0.0);
+    pairs.hertz.iter_mut().for_each(|hertz| *hertz = rounded(*hertz, frequencies));
+    for shape in &mut pairs.shapes {
+        let largest = shape.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        shape.iter_mut().for_each(|value| *value = rounded(*value / largest, shapes));
+    }
+    pairs
+}
+
+#[test]
+fn frequencies_of_five_digits_are_right() {
+    for digits in [5, 6, 7] {
+        let found = document(&place_of(&bar(), &short(17, digits)), "--strict", ExitCode::Done);
+        assert_eq!(found["verdict"], "pass", "{digits} digits: {found}");
+    }
+    // The check about frequencies is the one that says so where one is wrong.
+    let mut wrong = short(17, 17);
+    wrong.hertz[9] *= 1.0 + 3e-4;
+    let found = document(&place_of(&bar(), &wrong), "", ExitCode::Done);
+    assert_eq!((verdict(&found, "C-01"), verdict(&found, "M-01")), (Some("warn"), Some("pass")), "{found}");
+    wrong.hertz[9] *= 1.0 + 3e-3;
+    let found = document(&place_of(&bar(), &wrong), "", ExitCode::CheckFailed);
+    assert_eq!((verdict(&found, "C-01"), of_kind(&found, "inexact")), (Some("fail"), vec![10]), "{found}");
+}
+
+#[test]
+fn shapes_of_five_digits_are_right() {
+    for digits in [5, 6, 7] {
+        let found = document(&place_of(&bar(), &short(digits, 17)), "--strict", ExitCode::Done);
+        assert_eq!(found["verdict"], "pass", "{digits} digits: {found}");
+    }
+}
+
+/// Numbers with one decimal are off by half of it, which is much of a small one.
+#[test]
+fn decimals_of_frequencies_are_known() {
+    let mut pairs = short(17, 17);
+    pairs.hertz.iter_mut().for_each(|hertz| *hertz = format!("{hertz:.1}").parse().expect("a number"));
+    let found = document(&place_of(&bar(), &pairs), "--strict", ExitCode::Done);
+    let checks = found["checks"].as_array().expect("checks");
+    let check = checks.iter().find(|check| check["id"] == "C-01").expect("C-01");
+    assert_eq!((&check["verdict"], &check["active_limit"]), (&"pass".into(), &"data".into()), "{check}");
+}
+
+/// Pairs of K and M of five digits as these stand in their files are exact, rigid-body modes at the energy that digits give them included:
+/// how far those of the model itself may be is a matter of M-09.
+#[test]
+fn exact_pairs_of_matrices_of_five_digits_are_right() {
+    let model = of_digits(&steel_brick(), 5);
+    let pairs = lowest(&model, 12);
+    let place = place_of(&model, &pairs);
+    let found = document(&place, "", ExitCode::Done);
+    let verdicts = ["C-01", "C-05", "M-01"].map(|id| verdict(&found, id));
+    assert_eq!((verdicts, verdict(&found, "M-09")), ([Some("pass"); 3], Some("warn")), "{found}");
+    assert_eq!(of_kind(&found, "inexact"), Vec::<u64>::new(), "{found}");
+    // What no digits explain is off all the same.
+    let mut wrong = pairs.clone();
+    wrong.hertz[0] = 0.2 * pairs.hertz[6];
+    let found = document(&place_of(&model, &wrong), "", ExitCode::CheckFailed);
+    assert_eq!((verdict(&found, "C-05"), of_kind(&found, "inexact")), (Some("fail"), vec![1]), "{found}");
+}
+
+/// The mode that a poor shape mostly is, is named with what is known of it, and no digits beyond that.
+#[test]
+fn modes_next_to_poor_shapes_have_error_bars() {
+    let mut pairs = lowest(&bar(), 12);
+    let n = pairs.shapes[0].len();
+    let disturbance: Vec<f64> = (0..n).map(|row| (0.7 * row as f64).sin()).collect();
+    let size = |shape: &[f64]| shape.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let share = 2e-2 * size(&pairs.shapes[9]);
+    pairs.shapes[9].iter_mut().zip(&disturbance).for_each(|(value, other)| *value += share * other);
+    let place = place_of(&bar(), &pairs);
+    let found = document(&place, "", ExitCode::CheckFailed);
+    assert_eq!(of_kind(&found, "inexact"), [10], "{found}");
+    let [mode, bar_hz] = ["mode_hz", "mode_error_bar_hz"].map(|key| found["pairs"][9][key].as_f64().expect(key));
+    assert!((mode - pairs.hertz[9]).abs() <= bar_hz.max(1e-8 * mode), "{mode} ± {bar_hz}, {}", pairs.hertz[9]);
+    let text = certify(&place, "").expect(ExitCode::CheckFailed).out;
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("the mode that it is has") && text.contains(" Hz ± "), "{text}");
+}

@@ -1,0 +1,164 @@
+//! Many jobs by one command: those of a folder, and those of an assembly, whose joined interfaces are compared.
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel::error::Error;
+use supel_models::Model;
+use supel_testing::place::{Ended, Place, supel_as_typed};
+use supel_testing::schema::{assert_follows, validator};
+
+use crate::{beams, line};
+
+/// Writes a model and a job of two interfaces, the nodes 1 and 7, as NAME-K.mtx and so on and NAME.toml.
+fn write_component(place: &Place, name: &str, (model, units): (&Model, &str)) {
+    let own = Place::with(model);
+    for file in ["K.mtx", "M.mtx", "dofs.txt", "nodes.csv"] {
+        place.write(&format!("{name}-{file}"), &own.bytes(file));
+    }
+    let job = format!(
+        r#"
+interface = [{{ name = "first", nodes = [1] }}, {{ name = "last", nodes = [7] }}]
+reduction = {{ method = "craig-bampton", modes = {{ count = 4 }} }}
+write     = {{ superelement = "{name}.supel" }}
+
+[model]
+stiffness = "{name}-K.mtx"
+mass      = "{name}-M.mtx"
+dofs      = "{name}-dofs.txt"
+nodes     = "{name}-nodes.csv"
+units     = "{units}"
+"#
+    );
+    place.write(&format!("{name}.toml"), job.as_bytes());
+}
+
+/// A line of beams in two halves, which meet in the last node of the left one and the first of the right one.
+fn halves(units_of_right: &str) -> Place {
+    let place = Place::new();
+    write_component(&place, "left", (&beams(&line()[..7]), "m-kg-s"));
+    write_component(&place, "right", (&beams(&line()[6..]), units_of_right));
+    place
+}
+
+const ASSEMBLY: &str = r#"
+join = ["left.last=right.first"]
+
+[[component]]
+name = "left"
+job  = "left.toml"
+
+[[component]]
+name = "right"
+job  = "right.toml"
+"#;
+
+fn reduce_all(place: &Place, name: &str, flags: &[&str]) -> Ended {
+    supel_as_typed(supel::PIPELINE, &[&["reduce", "--all", &place.text(name)], flags].concat())
+}
+
+/// The JSON answer, held against its schema.
+#[track_caller]
+fn answered(ended: &Ended) -> Value {
+    let document = serde_json::from_str(&ended.out).unwrap_or_else(|_| panic!("{}{}", ended.out, ended.err));
+    assert_follows(&validator("reductions"), &document);
+    document
+}
+
+/// What became of each component: its name, its outcome, and the code of its error.
+fn outcomes(document: &Value) -> Vec<[&str; 3]> {
+    let rows = document["components"].as_array().expect("rows").iter();
+    let text = |value: &Value, key: &str| value[key].as_str().unwrap_or("").to_owned().leak() as &str;
+    rows.map(|row| [text(row, "name"), text(row, "outcome"), text(&row["error"], "code")]).collect()
+}
+
+#[test]
+fn a_folder_is_reduced_and_what_is_up_to_date_is_not_again() {
+    let place = halves("m-kg-s");
+    std::fs::create_dir_all(place.path("below/.hidden")).expect("folders");
+    let broken = std::fs::read_to_string(place.path("left.toml")).expect("a job").replace("left-K", "none-K");
+    place.write("below/broken.toml", broken.as_bytes());
+    place.write("below/.hidden/job.toml", broken.as_bytes());
+    place.write("notes.toml", b"author = \"nobody\"\n");
+    place.write("typo.toml", b"model = {{\n");
+    let first = reduce_all(&place, "", &["--json"]).expect(ExitCode::Io);
+    assert!(first.err.contains("notes.toml: passed over"), "{}", first.err);
+    let document = answered(&first);
+    let failed = [["below/broken", "failed", "E-READ"], ["typo", "failed", "E-JOB"]];
+    let expected = |outcome| [failed[0], ["left", outcome, ""], ["right", outcome, ""], failed[1]];
+    assert_eq!(outcomes(&document), expected("reduced"));
+    assert_eq!(document["exit_code"], ExitCode::Io as u8);
+
+    let text = reduce_all(&place, "", &[]).expect(ExitCode::Io);
+    assert!(text.out.contains("2 of 4 components not verified"), "{}", text.out);
+    let again = answered(&reduce_all(&place, "", &["--json"]));
+    assert_eq!(outcomes(&again), expected("up-to-date"));
+    let forced = answered(&reduce_all(&place, "", &["--json", "--force"]));
+    assert_eq!(outcomes(&forced), expected("reduced"));
+    let quiet = reduce_all(&place, "", &["--quiet"]).expect(ExitCode::Io);
+    assert_eq!(quiet.out, "");
+    assert!(quiet.err.contains("below/broken: error[E-READ]"), "{}", quiet.err);
+}
+
+/// By the program, which runs both at the same time, each in a process of its own.
+#[test]
+fn side_by_side_each_has_the_bytes_that_it_has_alone() {
+    let place = halves("m-kg-s");
+    let program = || assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+    let output =
+        program().args(["reduce", "--all", &place.text(""), "--threads", "2", "--json"]).output().expect("run");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let document: Value = serde_json::from_str(&text).expect("an answer");
+    assert_follows(&validator("reductions"), &document);
+    assert_eq!(outcomes(&document), [["left", "reduced", ""], ["right", "reduced", ""]]);
+    assert_eq!(output.status.code(), Some(0), "{text}{}", String::from_utf8_lossy(&output.stderr));
+    for name in ["left", "right"] {
+        let together = place.bytes(&format!("{name}.supel"));
+        program().args(["reduce", &place.text(&format!("{name}.toml")), "--force"]).assert().success();
+        assert!(together == place.bytes(&format!("{name}.supel")), "{name} has other bytes");
+    }
+}
+
+#[test]
+fn interfaces_that_an_assembly_joins_are_compared() {
+    let place = halves("m-kg-s");
+    place.write("assembly.toml", ASSEMBLY.as_bytes());
+    let document = answered(&reduce_all(&place, "assembly.toml", &["--json"]).expect(ExitCode::Done));
+    let join = &document["joins"][0];
+    assert_eq!((join["n_nodes"].as_u64(), join["n_dofs"].as_u64()), (Some(1), Some(6)), "{join}");
+    place.write("turned.toml", ASSEMBLY.replace("right.first", "right.last").as_bytes());
+    let apart = reduce_all(&place, "turned.toml", &["--json"]);
+    let document = answered(&apart);
+    assert_eq!(document["joins"][0]["error"]["code"], "E-JOIN-POSITION");
+    assert_eq!(apart.code as u8, document["exit_code"].as_u64().expect("a code") as u8);
+    assert_ne!(apart.code, ExitCode::Done);
+    let text = reduce_all(&place, "turned.toml", &[]);
+    assert!(text.out.contains("joined interfaces do not fit: 1 pair"), "{}", text.out);
+
+    let place = halves("mm-t-s");
+    place.write("assembly.toml", ASSEMBLY.as_bytes());
+    let document = answered(&reduce_all(&place, "assembly.toml", &["--json"]));
+    assert_eq!(document["joins"][0]["error"]["code"], "E-JOIN-UNITS");
+}
+
+#[test]
+fn what_cannot_be_many_jobs_is_refused_before_anything_runs() {
+    let place = halves("m-kg-s");
+    std::fs::create_dir(place.path("empty")).expect("a folder");
+    let refused = |name: &str, code: &str| {
+        let ended = reduce_all(&place, name, &[]);
+        assert!(ended.err.contains(&format!("error[{code}]")), "{name}: {}{}", ended.out, ended.err);
+        assert!(!place.path("left.supel").exists(), "{name}");
+    };
+    refused("empty", "E-NO-JOBS");
+    refused("missing", "E-READ");
+    place.write("none.toml", b"component = []\n");
+    refused("none.toml", "E-NO-JOBS");
+    place.write("twice.toml", ASSEMBLY.replace("name = \"right\"", "name = \"left\"").as_bytes());
+    refused("twice.toml", Error::ComponentTwice { name: String::new() }.code());
+    place.write("odd.toml", ASSEMBLY.replace("join", "joins").as_bytes());
+    refused("odd.toml", "E-JOB");
+    let same = std::fs::read_to_string(place.path("right.toml")).expect("a job").replace("right.supel", "left.supel");
+    place.write("right.toml", same.as_bytes());
+    place.write("assembly.toml", ASSEMBLY.as_bytes());
+    refused("assembly.toml", "E-OUTPUT-TWICE");
+}
