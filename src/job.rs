@@ -17,6 +17,7 @@ mod layout;
 mod load;
 mod location;
 mod matrix;
+mod mechanisms;
 mod method;
 mod node_selection;
 mod quantities;
@@ -42,6 +43,7 @@ pub use analysis::AnalysisJob;
 pub use carrier::CarrierJob;
 pub use damping::{ComponentDampingJob, MassActsOn, ModalDampingJob, RayleighJob, RigidMotionDamping};
 pub use document::Notation;
+pub(crate) use document::{text_of, toml_failure};
 pub use fixed::FixedJob;
 pub use gravity::GravityJob;
 pub use interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
@@ -50,6 +52,7 @@ pub use layout::Layout;
 pub use load::{LoadJob, LoadPattern, RotationJob};
 pub use location::Holder;
 pub use matrix::MatrixJob;
+pub use mechanisms::Mechanisms;
 pub use method::{Boundary, MassOf, Method, ModeOrigin};
 pub use node_selection::{NodeSelection, Region};
 pub use quantities::QuantitiesJob;
@@ -62,7 +65,7 @@ pub(crate) use shape::nearest;
 pub use statements::DofUse;
 pub use support::{Support, boundary_in_words};
 pub use types::{
-    Certify, ConstraintStorage, ConstraintsToGround, Duplicates, Expectation, Job, Mechanisms, ModelJob, ModelState,
-    Precision, RunJob, Skip, WriteJob,
+    Certify, ConstraintStorage, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, ModelState, Precision,
+    RunJob, Skip, WriteJob,
 };
 pub(crate) use validation::ends_in;

@@ -41,9 +41,13 @@ pub struct Resources {
 impl Resources {
     /// Memory that a job may use, in bytes: as it says itself, or what there is.
     pub fn allowed(self, job: &Job) -> Option<u64> {
-        let stated = job.run.memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64);
-        stated.or(self.memory_bytes)
+        job.run.memory_gib.map(bytes_of_gib).or(self.memory_bytes)
     }
+}
+
+/// Bytes of so many GiB.
+pub(crate) fn bytes_of_gib(gib: f64) -> u64 {
+    (gib * f64::from(1 << 30)) as u64
 }
 
 /// What a run needs, in bytes.

@@ -14,6 +14,7 @@ use super::judging::Answer;
 use super::reduce_command::ReduceCommand;
 use super::threads::Threads;
 use crate::error::{Error, Result};
+use crate::memory_forecast::bytes_of_gib;
 
 /// Reduce many jobs.
 #[derive(Debug)]
@@ -72,12 +73,8 @@ impl AllCommand {
             joins,
             passed_over,
             threads: Threads::of(run.threads),
-            budget_bytes: memory_gib.map(|gib| (gib * f64::from(1 << 30)) as u64),
-            answer: match (output.json, output.quiet) {
-                (true, _) => Answer::Json,
-                (false, true) => Answer::Nothing,
-                (false, false) => Answer::Text,
-            },
+            budget_bytes: memory_gib.map(bytes_of_gib),
+            answer: Answer::from((output.json, output.quiet)),
         })
     }
 }

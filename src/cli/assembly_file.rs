@@ -1,15 +1,11 @@
 //! The document of an assembly: which jobs make its components, and which of their interfaces are joined.
 
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
 use crate::error::{Error, Result};
-use crate::regular_file;
-
-/// The longest document.
-const MAX_BYTES: u64 = 1 << 24;
+use crate::job::{text_of, toml_failure};
 
 /// An assembly by its document.
 #[derive(Debug)]
@@ -41,17 +37,12 @@ impl AssemblyFile {
     /// # Errors
     /// A file that cannot be read; [`Error::JobSyntax`].
     pub(super) fn read(path: &Path) -> Result<Self> {
-        let wrong = |line, message| Error::JobSyntax { path: path.to_owned(), line, message };
-        let mut text = String::new();
-        let read = regular_file::open(path)?.take(MAX_BYTES).read_to_string(&mut text);
-        read.map_err(|source| Error::Read { path: path.to_owned(), source })?;
-        let document: Document = toml::from_str(&text).map_err(|error| {
-            let before = error.span().map(|span| &text.as_bytes()[..span.start.min(text.len())]);
-            let line = before.map(|before| before.iter().filter(|byte| **byte == b'\n').count() + 1);
-            wrong(line, format!("this is no assembly: {}", error.message().replace('\n', ", ")))
-        })?;
+        let text = text_of(path)?;
+        let document: Document =
+            toml::from_str(&text).map_err(|error| toml_failure("this is no assembly: ", &error, &text, path))?;
         if let Some(unnamed) = document.component.iter().find(|component| component.name.is_empty()) {
-            return Err(wrong(None, format!("the component of {} has an empty name", unnamed.job.display())));
+            let message = format!("the component of {} has an empty name", unnamed.job.display());
+            return Err(Error::JobSyntax { path: path.to_owned(), line: None, message });
         }
         let folder = std::path::absolute(path).map_err(|source| Error::Read { path: path.to_owned(), source })?;
         let folder = folder.parent().unwrap_or(Path::new("")).to_owned();

@@ -46,11 +46,7 @@ impl CertifyCommand {
             band: band.as_deref().map(band_of).transpose()?,
             html,
             junit,
-            answer: match (json, quiet) {
-                (true, _) => Answer::Json,
-                (false, true) => Answer::Nothing,
-                (false, false) => Answer::Text,
-            },
+            answer: Answer::from((json, quiet)),
             strictness: if strict { Strictness::Strict } else { Strictness::Normal },
         })
     }

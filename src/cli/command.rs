@@ -125,11 +125,7 @@ fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
         remark: remark.flatten(),
         rerun: if flags.reproduce { Rerun::Compared } else { Rerun::No },
         threads: Threads::of(flags.threads),
-        answer: match (flags.json, flags.quiet) {
-            (true, _) => Answer::Json,
-            (false, true) => Answer::Nothing,
-            (false, false) => Answer::Text,
-        },
+        answer: Answer::from((flags.json, flags.quiet)),
         strictness: if flags.strict { Strictness::Strict } else { Strictness::Normal },
     })
 }

@@ -4,9 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, Result};
+use crate::job::text_of;
 
-/// The longest document that is looked into; a longer one counts as a job, whose run says that it is too long.
-const MAX_BYTES: u64 = 1 << 24;
 /// Tables that every job has, and of other documents hardly one.
 const TABLES: [&str; 3] = ["model", "reduction", "write"];
 
@@ -56,10 +55,7 @@ fn collect(folder: &Path, documents: &mut Vec<PathBuf>) -> Result<()> {
 
 /// Whether a document is meant as a job: it has one of the tables of a job. What cannot be read as TOML is not passed over in silence.
 fn may_be_job(path: &Path) -> bool {
-    if fs::metadata(path).is_ok_and(|file| file.len() > MAX_BYTES) {
-        return true;
-    }
-    let Ok(text) = fs::read_to_string(path) else { return true };
+    let Ok(text) = text_of(path) else { return true };
     let Ok(document) = text.parse::<toml::Table>() else { return true };
     TABLES.iter().any(|table| document.contains_key(*table))
 }

@@ -8,6 +8,17 @@ pub(super) enum Answer {
     Nothing,
 }
 
+/// By the flags `--json` and `--quiet`, of which the first wins.
+impl From<(bool, bool)> for Answer {
+    fn from(flags: (bool, bool)) -> Self {
+        match flags {
+            (true, _) => Self::Json,
+            (false, true) => Self::Nothing,
+            (false, false) => Self::Text,
+        }
+    }
+}
+
 /// Whether warnings count as failed checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Strictness {

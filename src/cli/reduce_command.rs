@@ -37,11 +37,7 @@ impl ReduceCommand {
     /// Those of the job document and of the flags, see [`Job::validate`].
     pub(super) fn build(flags: ReduceFlags) -> Result<Self> {
         let ReduceFlags { job: document, all: _, model, reduction, output, run } = flags;
-        let answer = match (output.json, output.quiet) {
-            (true, _) => Answer::Json,
-            (false, true) => Answer::Nothing,
-            (false, false) => Answer::Text,
-        };
+        let answer = Answer::from((output.json, output.quiet));
         let unverified = Unverified::from(output.allow_unverified);
         let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
         let (mut job, remarks) = match &document {

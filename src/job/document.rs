@@ -36,7 +36,7 @@ impl Notation {
 const MAX_BYTES: u64 = 1 << 24;
 
 /// The text of the document at `path`.
-pub(super) fn text_of(path: &Path) -> Result<String> {
+pub(crate) fn text_of(path: &Path) -> Result<String> {
     let failed = |source| Error::Read { path: path.to_owned(), source };
     let wrong = |message: String| Error::JobSyntax { path: path.to_owned(), line: None, message };
     let mut bytes = Vec::new();
@@ -124,7 +124,8 @@ fn json_tree(value: &serde_json::Value) -> Tree<'_> {
     })
 }
 
-fn toml_failure(what: &str, error: &toml::de::Error, text: &str, path: &Path) -> Error {
+/// What is wrong with a TOML document, and in which line.
+pub(crate) fn toml_failure(what: &str, error: &toml::de::Error, text: &str, path: &Path) -> Error {
     Error::JobSyntax {
         path: path.to_owned(),
         line: error.span().map(|span| line_at(text, span.start)),

@@ -10,9 +10,10 @@ use super::analysis::AnalysisJob;
 use super::damping::{ComponentDampingJob, RigidMotionDamping};
 use super::gravity::GravityJob;
 use super::location::Holder;
+use super::mechanisms::Mechanisms;
 use super::reduction::ModesJob;
 use super::scene::SceneJob;
-use super::types::{Certify, ConstraintsToGround, Job, Mechanisms, ModelState, Skip};
+use super::types::{Certify, ConstraintsToGround, Job, ModelState, Skip};
 use super::{document, validation};
 use crate::error::{Error, Result};
 

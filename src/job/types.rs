@@ -17,6 +17,7 @@ use super::interface::InterfaceJob;
 use super::layout::Layout;
 use super::load::LoadJob;
 use super::matrix::MatrixJob;
+use super::mechanisms::Mechanisms;
 use super::quantities::QuantitiesJob;
 use super::ranges::{LARGEST, MAX_DIGITS, SMALLEST};
 use super::recovery::RecoveryJob;
@@ -193,23 +194,6 @@ pub enum ConstraintsToGround {
 impl ConstraintsToGround {
     fn are_refused(&self) -> bool {
         *self == Self::Refuse
-    }
-}
-
-/// What is said of mechanisms, which are kept as zero modes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Mechanisms {
-    /// A warning.
-    #[default]
-    Warn,
-    /// They are meant, and stand among the assumptions.
-    Accept,
-}
-
-impl Mechanisms {
-    fn are_warned_of(&self) -> bool {
-        *self == Self::Warn
     }
 }
 
