@@ -173,10 +173,11 @@ pub(crate) fn reduced(
     let mut plan = conditioned.plan.clone();
     for n_searches in 0..SEARCHES {
         plan = plan.keeping(ModeSelection::UpTo { up_to_hz: first_hz * FURTHER.powi(n_searches) });
-        let all = Conditioned { plan: &plan, ..conditioned };
+        let looking = plan.uncertified();
+        let all = Conditioned { plan: &looking, ..conditioned };
         let (fewest, n_all) = with_reduction(all, (resources, &mut *observer), |stages, observer| {
             observer.stage("choice of modes");
-            let fewest = verification::fewest_modes(&stages.evidence, stages.analysis, plan.job())?;
+            let fewest = verification::fewest_modes(&stages.evidence, stages.analysis, looking.job())?;
             Ok((fewest, stages.evidence.retained.modes.count()))
         })?;
         let mut next = fewest;

@@ -18,6 +18,7 @@ mod checks;
 mod claims;
 mod independence;
 mod judgement;
+mod listing;
 mod measured;
 mod orientation;
 mod pair;

@@ -9,7 +9,7 @@ use super::rule::{Decision, Kind, RuleId};
 use super::rules;
 use super::scene::Scene;
 use super::table::RULES;
-use crate::job::{Job, ModeSelection, ModesJob, SceneJob};
+use crate::job::{Certify, Job, ModeSelection, ModesJob, SceneJob};
 
 /// What a run does.
 #[derive(Clone, Debug)]
@@ -46,6 +46,14 @@ impl Plan {
     pub fn keeping(&self, modes: ModeSelection) -> Self {
         let mut plan = self.clone();
         plan.job.reduction.modes = Some(modes.into());
+        plan
+    }
+
+    /// The plan of a look at modes: those that are chosen of them are certified by the run that keeps them.
+    #[must_use]
+    pub fn uncertified(&self) -> Self {
+        let mut plan = self.clone();
+        plan.job.run.certify = Certify::None;
         plan
     }
 

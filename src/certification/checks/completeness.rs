@@ -1,6 +1,7 @@
 //! What a result has too little or too much.
 
 use super::subject::Subject;
+use crate::certification::listing::first_of;
 use crate::certification::pair::PairKind;
 use crate::number::quantity;
 use crate::verification::check::{Check, Limits};
@@ -52,10 +53,7 @@ impl Subject<'_> {
     }
 
     fn none_of(&self, claims: Vec<usize>, id: &'static str, name: &'static str, equation: &'static str) -> Check {
-        let mut listed: Vec<String> = claims.iter().take(LISTED).map(|claim| self.name(*claim)).collect();
-        if claims.len() > LISTED {
-            listed.push(format!("{} more", claims.len() - LISTED));
-        }
+        let listed = first_of(claims.iter().map(|claim| self.name(*claim)), (LISTED, claims.len()));
         Check {
             id,
             name,
@@ -63,7 +61,7 @@ impl Subject<'_> {
             value: claims.len() as f64,
             limits: Limits::default(),
             fail_above: 0.0,
-            worst: (!claims.is_empty()).then(|| listed.join(", ")),
+            worst: (!claims.is_empty()).then_some(listed),
         }
     }
 

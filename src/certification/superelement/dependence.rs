@@ -10,6 +10,7 @@
 use faer::{Mat, MatRef};
 
 use super::foreign::Foreign;
+use crate::certification::listing::first_of;
 use crate::dense;
 use crate::error::Result;
 use crate::partition::Partition;
@@ -80,11 +81,7 @@ fn named(foreign: &Foreign, motion: &[f64]) -> String {
     let largest = motion.iter().fold(0.0f64, |max, value| max.max(value.abs()));
     let mut of_it: Vec<usize> = (0..motion.len()).filter(|at| motion[*at].abs() >= NAMED * largest).collect();
     of_it.sort_by(|a, b| motion[*b].abs().total_cmp(&motion[*a].abs()).then(a.cmp(b)));
-    let mut listed: Vec<String> = of_it.iter().take(LISTED).map(|at| foreign.name(*at)).collect();
-    if of_it.len() > LISTED {
-        listed.push(format!("{} more", of_it.len() - LISTED));
-    }
-    format!("together {}", listed.join(", "))
+    format!("together {}", first_of(of_it.iter().map(|at| foreign.name(*at)), (LISTED, of_it.len())))
 }
 
 #[cfg(test)]

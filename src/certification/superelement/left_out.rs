@@ -8,6 +8,7 @@ use super::files::ForeignSuperelement;
 use super::interface::Interface;
 use crate::certification::certified::certified_pairs;
 use crate::certification::claims::Claims;
+use crate::certification::listing::first_of;
 use crate::certification::pair::MissingMode;
 use crate::dense;
 use crate::eigen::{Spectral, rayleigh_quotients};
@@ -116,11 +117,8 @@ impl LeftOut {
             Own::Held => "with the interface held",
             Own::Free => "of the free component",
         };
-        let mut listed: Vec<String> =
-            self.missing.iter().take(LISTED).map(|mode| format!("{} Hz", quantity(mode.frequency_hz, 7))).collect();
-        if n_missing > listed.len() {
-            listed.push(format!("{} more", n_missing - listed.len()));
-        }
+        let named = self.missing.iter().map(|mode| format!("{} Hz", quantity(mode.frequency_hz, 7)));
+        let listed = first_of(named, (LISTED, n_missing));
         let has = format!("{} {held} up to {} Hz", counted(self.n_exact, "mode", "modes"), quantity(self.up_to_hz, 7));
         Check {
             id: "C-12",
@@ -131,7 +129,7 @@ impl LeftOut {
             fail_above: if n_missing > 0 && is_needed() { 0.0 } else { Check::NEVER },
             worst: Some(match listed.is_empty() {
                 true => format!("it has all {has}"),
-                false => format!("{}, left out of the {has}", listed.join(", ")),
+                false => format!("{listed}, left out of the {has}"),
             }),
         }
     }
