@@ -19,6 +19,7 @@ text=../fixtures/text
 seeds matrix_market $matrices/[km].mtx $matrices/[km]_short.mtx
 seeds coordinate $text/truss.sti $text/truss.mas
 seeds abaqus_labels $matrices/*_labels.mtx
+seeds user_element $matrices/user_element.mtx
 seeds dmig $matrices/*.pch $matrices/*.bdf
 seeds op4 $matrices/*.op4
 seeds harwell_boeing $matrices/*.rsa $matrices/*.rua
@@ -29,6 +30,7 @@ seeds any_matrix $matrices/k.mtx $matrices/k_labels.mtx $matrices/small.bdf $mat
 seeds dof_map $text/truss.dof $matrices/small.bdf
 seeds node_table $text/truss.csv
 seeds mesh ../fixtures/mesh/*.msh ../fixtures/mesh/*.vtk ../fixtures/mesh/*.vtu ../fixtures/calculix/*.inp ../fixtures/calculix/*.frd
+seeds modes modes/*
 
 for target in seeds/*/; do
     target="$(basename "$target")"

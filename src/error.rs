@@ -1782,13 +1782,13 @@ pub enum Error {
     #[entry(
         "E-UNSYMMETRIC",
         InputData,
-        "leave out follower forces, gyroscopic and friction terms; where a triangle is incomplete, say which one \
-        holds with `model.symmetric` (`reduce --symmetric`)"
+        "give follower forces, gyroscopic and friction terms as matrices of their own (`[[matrix]]`); where a triangle is \
+        incomplete, say which one holds with `model.symmetric` (`reduce --symmetric`)"
     )]
     #[error(
         "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – \
-        expected below 1e-6 – leave out follower forces, gyroscopic and friction terms; where the file lacks part of \
-        a triangle, take the other one: model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
+        expected below 1e-6 – take follower forces, gyroscopic and friction terms out and give them as matrices of \
+        their own, [[matrix]] in the job; where the file lacks part of a triangle, take the other one: model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.
@@ -2081,6 +2081,22 @@ pub enum Error {
         /// What is there, in words.
         found: String,
         /// What belongs there.
+        expected: &'static str,
+    },
+    /// Modes that a file gives at nodes are not those of one frequency step, or have no value for a row of K and M.
+    #[entry(
+        "E-MODES-NODES",
+        InputData,
+        "write the displacements of all nodes in the frequency step, name that step where there are several, and give the dof \
+         map of the matrices"
+    )]
+    #[error("{}: found {found} – expected {expected}", path.display())]
+    ModesNodes {
+        /// The file.
+        path: PathBuf,
+        /// What is there, in words.
+        found: String,
+        /// What belongs there, and what to do.
         expected: &'static str,
     },
     /// A file of modes has another number of rows than the matrices.
@@ -3067,7 +3083,11 @@ pub enum Error {
         is_free_by_digits: bool,
     },
     /// The interface leaves a rigid-body motion free, as far as the digits of the stiffness tell.
-    #[entry("E-INTERFACE-RANK", ModelPhysics, "add interface nodes off the axis named, or give them rotations")]
+    #[entry(
+        "E-INTERFACE-RANK",
+        ModelPhysics,
+        "add interface nodes off the axis named, give them rotations, or reduce by the method `rubin`"
+    )]
     #[error(
         "the interface can react only {rank} of the {}{motion} – expected all – {}{}",
         counted(*n_rigid, "rigid-body motion", "rigid-body motions"),
@@ -3270,9 +3290,16 @@ pub enum Error {
         steps: usize,
     },
     /// The shift of a Sturm count lies on an eigenvalue.
-    #[entry("E-STURM-PIVOT", NumericalLimit, "ask for one mode more or less")]
+    #[entry(
+        "E-STURM-PIVOT",
+        NumericalLimit,
+        "ask for one mode more or less; with a penalty far above all else lower it, or do without the count \
+        (`run.certify = \"none\"`)"
+    )]
     #[error(
-        "the Sturm count met a pivot without a sign – the shift lies on an eigenvalue – ask for one mode more or less"
+        "the Sturm count met a pivot without a sign – the shift lies on an eigenvalue, or a penalty far above all else \
+        takes the digits of the pivot – ask for one mode more or less; lower such a penalty, or do without the count, \
+        run.certify = \"none\" (reduce --certify none)"
     )]
     SturmPivot,
     /// The eigensolver stalled.

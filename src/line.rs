@@ -3,6 +3,7 @@
 use crate::basis::{self, Basis};
 use crate::constraint::{self, Constrained, LooseMotions, constrained};
 use crate::coordinates;
+use crate::cost_forecast::Foreseen;
 use crate::damping::{Damping, refuse_resistance};
 use crate::error::Result;
 use crate::factor::{Analysis, Storage};
@@ -108,6 +109,7 @@ pub(crate) fn with_component<T>(
 
     observer.stage("factor");
     let storage = memory_forecast::storage_within_memory(&analysis, partition, &plan, resources)?;
+    observer.foreseen(&Foreseen::of(&plan, (partition, &analysis), None));
     let factor = constraint::interior_factor(partition, &analysis, &rigid, (storage, rank))?;
 
     observer.stage("constraint modes");
@@ -182,7 +184,7 @@ pub(crate) fn reduced(
         })?;
         let mut next = fewest;
         while let Some(count) = next.filter(|count| *count <= n_all) {
-            let facts = facts.remarking(format!("{count} of the {n_all} lowest modes meet what the scene accepts"));
+            let facts = facts.remarking(format!("{count} of the {n_all} lowest modes are kept: as many as the accepted errors of frequencies, response and loads need"));
             let outcome = made(&plan.keeping(ModeSelection::Count { count }), &facts, observer)?;
             if outcome.report.body.preservation.modes_are_enough() {
                 return Ok(outcome);
@@ -206,6 +208,7 @@ fn with_reduction<T>(
     observer.stage("modes");
     let search = Search::new(component, &job.reduction)?;
     let size = (storage, search.n_expected());
+    observer.foreseen(&Foreseen::of(plan, (partition, analysis), search.n_expected()));
     let forecast = search.n_expected().and_then(|n_modes| size_forecast::of_modes(n_modes, job));
     forecast.iter().for_each(|warning| observer.warned(warning));
     let at_once = memory_forecast::slices_within_memory(analysis, partition, plan, resources, size)?;

@@ -47,8 +47,8 @@ fn certified_pairs(
 
     observer.stage("result");
     let allowance = Allowance::of(resources.allowed(job));
-    let n_rows = partition.model.n_dofs + partition.model.rows.n_dropped();
-    let modes = input::foreign_modes(&files.shapes, n_rows, &allowance)?;
+    let mut modes = input::foreign_modes(&files.shapes, &certification::mode_rows(&partition), &allowance)?;
+    let left_out = std::mem::take(&mut modes.notes);
     let values = match &files.values {
         Some((unit, source)) => Some(ModeValues::read(*unit, source, modes.columns.len(), &allowance)?),
         None => modes.values.clone(),
@@ -61,7 +61,7 @@ fn certified_pairs(
     with_component(&Plan::of(job), &partition, (resources, observer), |Conditioned { component, .. }, observer| {
         observer.stage("certificate");
         let mut certification = certification::certified_pairs(component, &job.reduction, &claims, band)?;
-        certification.notes.extend(turned.map(str::to_owned));
+        certification.notes.extend(left_out.into_iter().chain(turned.map(str::to_owned)));
         let model = CertifiedModel::of(&facts, component);
         Ok(CertificationReport { generator: Generator::default(), model, result, certification })
     })
@@ -76,9 +76,10 @@ fn certified_superelement(
     let (facts, partition) = prepared(&Plan::of(job), resources, observer)?;
 
     observer.stage("result");
-    let n_rows = partition.model.n_dofs + partition.model.rows.n_dropped();
-    let given = ForeignSuperelement::read(files, n_rows, &Allowance::of(resources.allowed(job)))?;
+    let rows = certification::mode_rows(&partition);
+    let given = ForeignSuperelement::read(files, &rows, &Allowance::of(resources.allowed(job)))?;
     let interface = certification::interface(&partition, &given);
+    let (given, reordered) = given.in_order_of_basis(&interface);
     // Where no coordinate is a row of the model nothing tells which are static answers, and half of them may be.
     let n_modes = match interface.coordinates.len() {
         0 => given.n_coordinates().div_ceil(2),
@@ -101,6 +102,7 @@ fn certified_superelement(
         },
     )?;
     let mut certification = ReducedCertification::new(&foreign, &interface, free);
+    certification.notes.extend(given.basis.notes.iter().cloned().chain(reordered));
     let source = ReducedSource::of(&given);
     drop(partition);
     certification.complete(match held_modes(job, (&given, &interface), (resources, observer)) {

@@ -419,6 +419,32 @@ fn a_pipe_gets_no_colour() {
     assert!(!ended.stderr.contains(&0x1b));
 }
 
+/// On a terminal, which `script` of util-linux makes, the stages are named in one line that is gone when the answer comes.
+#[test]
+fn a_terminal_shows_the_stages() {
+    const CLEARED: &str = "\r\u{1b}[2K";
+    if std::process::Command::new("script").arg("--version").output().is_err() {
+        eprintln!("SKIPPED: `script` is not installed");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let job = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/bracket/job.toml");
+    let program = assert_cmd::cargo::cargo_bin!("supel");
+    let command = format!("'{}' reduce '{}' -o bracket.supel", program.display(), job.display());
+    let ended = std::process::Command::new("script")
+        .args(["--quiet", "--return", "--command", &command, "/dev/null"])
+        .current_dir(folder.path())
+        .output()
+        .expect("ran");
+    let said = String::from_utf8_lossy(&ended.stdout);
+    assert_eq!(ended.status.code(), Some(0), "{said}");
+    let (progress, answer) = said.rsplit_once(CLEARED).expect("a line that is cleared");
+    for stage in ["read", "factor", "constraint modes", "modes", "preservation"] {
+        assert!(progress.contains(&format!("{CLEARED}  {stage} …")), "{stage}: {progress:?}");
+    }
+    assert!(answer.contains("verified") && !answer.contains(" …"), "{answer:?}");
+}
+
 #[cfg(feature = "hdf5")]
 #[test]
 fn a_file_that_crashes_the_hdf5_library_is_an_input_error() {

@@ -1,11 +1,14 @@
-//! What the targets call: a file of any content, read as a matrix, a dof map or nodes. A reader gives a value or an error, and takes no
+//! What the targets call: a file of any content, read as a matrix, a dof map, nodes, a mesh or modes. A reader gives a value or an error, and takes no
 //! more memory than a multiple of the file.
 
 use std::cell::RefCell;
 use std::path::Path;
 
+use supel::dofs::{Direction, Dof};
 use supel::error::Selector;
-use supel::input::{Allowance, Patch, Patches, SingleMatrix, nodes, patch_faces, read};
+use supel::input::{
+    Allowance, MeshInput, ModeRows, Patch, Patches, SingleMatrix, foreign_modes, nodes, patch_faces, read,
+};
 use supel::job::{Layout, ModelJob};
 
 /// Memory that reading may claim.
@@ -59,6 +62,19 @@ pub fn read_nodes(content: &[u8]) {
     with_file(content, |path| read_model(|model| model.nodes = Some(path.to_owned())));
 }
 
+/// Reads a content as modes of a model of two nodes, in whatever format it is.
+pub fn read_modes(content: &[u8]) {
+    let of_node = |node| [Direction::Ux, Direction::Uy, Direction::Uz].map(|direction| Some(Dof { node, direction }));
+    let left: Vec<_> = [1, 2].into_iter().flat_map(of_node).enumerate().collect();
+    with_file(content, |path| {
+        let rows = ModeRows { n: left.len(), left };
+        match foreign_modes(path, &rows, &Allowance::of(Some(ALLOWANCE))) {
+            Ok(read) => assert!(read.columns.iter().all(|column| column.iter().all(|value| value.is_finite()))),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+    });
+}
+
 /// Reads a content as a mesh: its nodes, its groups, and the faces of the first of these.
 pub fn read_mesh(content: &[u8]) {
     with_file(content, |path| {
@@ -71,6 +87,10 @@ pub fn read_mesh(content: &[u8]) {
         let model = ModelJob { nodes: Some(path.to_owned()), ..ModelJob::default() };
         if let Err(error) = patch_faces(&model, &patches, &allowance) {
             assert!(!error.to_string().is_empty());
+        }
+        if let Ok(mesh) = MeshInput::read(path, &allowance) {
+            let n = mesh.nodes.labels.len();
+            assert!(mesh.cells.iter().flat_map(|cells| &cells.nodes).all(|node| (*node as usize) < n));
         }
     });
 }

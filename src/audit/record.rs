@@ -110,6 +110,7 @@ fn least(content: &Content<'_>, entry: &Entry) -> usize {
             let limit = match measure {
                 AccuracyMeasure::Frequency => accept.frequency,
                 AccuracyMeasure::Response => accept.response_db,
+                AccuracyMeasure::InternalLoad => accept.internal_load,
                 AccuracyMeasure::Static => accept.statics,
             };
             usize::from(limit.is_some())

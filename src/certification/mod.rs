@@ -23,6 +23,7 @@ mod measured;
 mod orientation;
 mod pair;
 mod result_files;
+mod rows;
 mod strayed;
 mod superelement;
 mod unit;
@@ -33,6 +34,7 @@ pub use claims::{Claims, PairFiles};
 pub use orientation::right_way_round;
 pub use pair::{JudgedPair, MissingMode, PairKind};
 pub use result_files::ResultFiles;
+pub use rows::mode_rows;
 pub use superelement::{
     Foreign, ForeignSuperelement, FreeComparison, Interface, LeftOut, Own, ReducedCertification, ReducedFiles,
     ReducedMatrix, compared_free, interface, left_out, preserved,

@@ -21,6 +21,9 @@ use crate::error::{Error, Result};
 use crate::memory_forecast::Resources;
 use crate::report::{ComponentOutcome, ComponentRow, ErrorLine, JoinRow, ReductionsReport};
 
+/// The code of a run that was ended from outside.
+const JOB_PROCESS: &str = "E-JOB-PROCESS";
+
 pub(super) fn run(command: &AllCommand, here: (Pipeline, RunLine), terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     refuse_shared_files(&command.members)?;
     announce(command, terminal);
@@ -44,11 +47,21 @@ pub(super) fn run(command: &AllCommand, here: (Pipeline, RunLine), terminal: &mu
         line.show(&format!("  {} of {n_all} done · {} …", n_up_to_date + n_ended, names.join(", ")));
     });
     drop(line);
-    let said = ended.iter().flat_map(|ended| ended.said.lines().map(str::to_owned)).collect::<Vec<_>>();
+    let mut said = ended.iter().flat_map(|ended| ended.said.lines().map(str::to_owned)).collect::<Vec<_>>();
     let mut made = stale.iter().zip(ended).map(|(member, ended)| row(member, ended));
     let components: Vec<ComponentRow> = up_to_date.into_iter().filter_map(|row| row.or_else(|| made.next())).collect();
     let joins = joins(command, &components, shares.budget);
+    said.extend(unsaid(&components, &joins));
     answer(&ReductionsReport { components, joins, budget_bytes: shares.budget }, (command.answer, &said), terminal)
+}
+
+/// One line for each error of this process, which no other one has said: of runs that left nothing, and of interfaces that do not fit.
+fn unsaid(components: &[ComponentRow], joins: &[JoinRow]) -> Vec<String> {
+    let line = |what: &str, error: &ErrorLine| format!("supel: {what}: error[{}]: {}", error.code, error.message);
+    let died = components.iter().filter_map(|row| Some((&row.name, row.error.as_ref()?)));
+    let died = died.filter(|(_, error)| error.code == JOB_PROCESS).map(|(name, error)| line(name, error));
+    let refused = joins.iter().filter_map(|join| Some(line(&format!("{} = {}", join.a, join.b), join.error.as_ref()?)));
+    died.chain(refused).collect()
 }
 
 fn announce(command: &AllCommand, terminal: &mut Terminal<'_>) {

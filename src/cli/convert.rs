@@ -1,9 +1,10 @@
-//! `supel convert`: a matrix in another format.
+//! `supel convert`: a matrix, or a mesh, in another format.
 
 use serde_json::json;
 
 use super::answer::{Program, Terminal};
-use super::convert_command::{ConvertAnswer, ConvertCommand};
+use super::convert_command::{ConvertAnswer, ConvertCommand, MatrixConversion};
+use super::convert_mesh;
 use super::exit_code::ExitCode;
 use super::outputs::{Outputs, abandoned, refuse_unwritable, writer};
 use super::overwriting::{Named, OwnFiles};
@@ -17,6 +18,13 @@ use crate::number::counted;
 use crate::report::{printable, value_text};
 
 pub(super) fn run(command: &ConvertCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
+    match command {
+        ConvertCommand::Matrix(conversion) => convert_matrix(conversion, terminal),
+        ConvertCommand::Mesh(conversion) => convert_mesh::run(conversion, terminal),
+    }
+}
+
+fn convert_matrix(command: &MatrixConversion, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     let own = OwnFiles::of(&inputs(command), &outputs(command))?;
     refuse_unwritable(&own)?;
     let memory_bytes = memory::available_bytes();
@@ -55,13 +63,13 @@ pub(super) fn run(command: &ConvertCommand, terminal: &mut Terminal<'_>) -> Resu
     Ok(ExitCode::Done)
 }
 
-fn inputs(command: &ConvertCommand) -> Vec<Named> {
+fn inputs(command: &MatrixConversion) -> Vec<Named> {
     let matrix = ("the matrix", command.matrix.path());
     std::iter::once(matrix).chain(command.matrix.dofs.clone().map(|path| ("the dof map", path))).collect()
 }
 
 /// The matrix goes last: the table describes it.
-fn outputs(command: &ConvertCommand) -> Vec<Named> {
+fn outputs(command: &MatrixConversion) -> Vec<Named> {
     let dofs = command.dofs_output.clone().map(|path| ("--write-dofs", path));
     dofs.into_iter().chain([("OUTPUT", command.output.clone())]).collect()
 }
@@ -75,7 +83,7 @@ fn table(dofs: &DofMap) -> String {
     std::iter::once("node,dof\n".to_owned()).chain(dofs.iter().map(row)).collect()
 }
 
-fn text(command: &ConvertCommand, read: &ReadSingle, shape: Shape) -> String {
+fn text(command: &MatrixConversion, read: &ReadSingle, shape: Shape) -> String {
     let shown = |path: &std::path::Path| printable(&path.display().to_string()).into_owned();
     let (n, n_entries) = (read.input.matrix.rows(), read.input.matrix.nnz());
     let mut lines = vec![format!(
@@ -93,7 +101,7 @@ fn text(command: &ConvertCommand, read: &ReadSingle, shape: Shape) -> String {
 }
 
 /// `schemas/conversion.schema.json` describes it.
-fn document(command: &ConvertCommand, read: &ReadSingle, shape: Shape) -> String {
+fn document(command: &MatrixConversion, read: &ReadSingle, shape: Shape) -> String {
     let notes: Vec<String> = read.notes.iter().map(ToString::to_string).collect();
     value_text(&json!({
         "format_version": 1,

@@ -7,9 +7,16 @@ use crate::conversion::Target;
 use crate::error::{Error, Result};
 use crate::input::SingleMatrix;
 
+/// What is written in another format.
+#[derive(Debug)]
+pub(super) enum ConvertCommand {
+    Matrix(MatrixConversion),
+    Mesh(MeshConversion),
+}
+
 /// Write a matrix in another format.
 #[derive(Debug)]
-pub(super) struct ConvertCommand {
+pub(super) struct MatrixConversion {
     pub(super) matrix: SingleMatrix,
     pub(super) target: Target,
     pub(super) output: PathBuf,
@@ -17,6 +24,14 @@ pub(super) struct ConvertCommand {
     pub(super) dofs_output: Option<PathBuf>,
     /// The name that was typed.
     pub(super) name: Option<String>,
+    pub(super) answer: ConvertAnswer,
+}
+
+/// Write a mesh as VTKHDF.
+#[derive(Debug)]
+pub(super) struct MeshConversion {
+    pub(super) file: PathBuf,
+    pub(super) output: PathBuf,
     pub(super) answer: ConvertAnswer,
 }
 
@@ -29,7 +44,8 @@ pub(super) enum ConvertAnswer {
 
 impl ConvertCommand {
     /// # Errors
-    /// [`Error::FlagText`] for a name that says no format, and for one that a matrix cannot have; [`Error::NameNotText`].
+    /// [`Error::FlagText`] for a name that says no format, for one that a matrix cannot have, and for flags of matrices where a mesh is
+    /// written; [`Error::NameNotText`].
     pub(super) fn build(flags: ConvertFlags) -> Result<Self> {
         let ConvertFlags { from, output, layout, to, dofs, write_dofs, name, json } = flags;
         for (key, path) in [("FROM", &from), ("OUTPUT", &output)] {
@@ -39,17 +55,26 @@ impl ConvertCommand {
         let target = to.or_else(|| Target::of_ending(&output)).ok_or_else(|| Error::FlagText {
             flag: "OUTPUT",
             text: text(&output),
-            expected: "a name that ends in .mtx, .mat, .npz or .op4, or a format by --to",
+            expected: "a name that ends in .mtx, .mat, .npz, .op4 or, of a mesh, .vtkhdf, or a format by --to",
         })?;
         if let Some(name) = name.as_ref().filter(|name| !is_name(name)) {
             let expected = "a letter, then letters, digits and underscores";
             return Err(Error::FlagText { flag: "--name", text: name.clone(), expected });
         }
         let answer = if json { ConvertAnswer::Json } else { ConvertAnswer::Text };
+        if target == Target::Vtkhdf {
+            if layout.is_some() || dofs.is_some() || write_dofs.is_some() || name.is_some() {
+                let expected = "neither --layout, --dofs, --write-dofs nor --name, which are those of a matrix";
+                return Err(Error::FlagText { flag: "--to", text: target.name(), expected });
+            }
+            return Ok(Self::Mesh(MeshConversion { file: from, output, answer }));
+        }
         let matrix = SingleMatrix { file: from, layout, dofs };
-        Ok(Self { matrix, target, output, dofs_output: write_dofs, name, answer })
+        Ok(Self::Matrix(MatrixConversion { matrix, target, output, dofs_output: write_dofs, name, answer }))
     }
+}
 
+impl MatrixConversion {
     /// The name of the matrix: as typed, as in the file that was read, or as the file that is written.
     pub(super) fn name(&self, in_file: Option<&str>) -> String {
         let of_file = in_file.and_then(|name| name.rsplit('/').next()).map(str::to_owned);

@@ -51,7 +51,7 @@ pub(super) enum Typed {
     /// Write a superelement in a format of other programs, or as a model that can be reduced again; or an assembly as one model
     #[command(after_help = EXIT_CODES)]
     Export(ExportFlags),
-    /// Write a matrix in another format, every bit kept
+    /// Write a matrix in another format, every bit kept, or a mesh as VTKHDF for ParaView
     #[command(after_help = EXIT_CODES)]
     Convert(ConvertFlags),
     /// Print what a code means and what to do about it, or all codes
@@ -243,9 +243,9 @@ pub(super) struct PlanFlags {
 
 #[derive(Debug, Args)]
 pub(super) struct ConvertFlags {
-    /// File of the matrix; its name in a file of several follows a colon: model.h5:/K, model.op4:KAA
+    /// File of the matrix; its name in a file of several follows a colon: model.h5:/K, model.op4:KAA. For .vtkhdf that of a mesh
     pub(super) from: PathBuf,
-    /// File to be written; its ending says the format: .mtx, .mat, .npz, .op4
+    /// File to be written; its ending says the format: .mtx, .mat, .npz, .op4, and of a mesh .vtkhdf
     pub(super) output: PathBuf,
     /// Format of the file that is read, where its content leaves several
     #[arg(long, value_name = "FORMAT", value_parser = values::<Layout>())]

@@ -15,7 +15,7 @@ use supel_runtime::MatrixKind;
 use super::exit_code::ExitCode;
 use super::process;
 use crate::error::{Error, Result};
-use crate::input::{self, Allowance, Cells, SingleMatrix};
+use crate::input::{self, Allowance, Cells, MeshInput, SingleMatrix};
 use crate::job::{Job, MatrixJob, ModelJob};
 
 /// The hidden subcommand of the child.
@@ -35,6 +35,8 @@ struct Task {
     model: Option<ModelJob>,
     matrices: Vec<MatrixJob>,
     modes: Vec<PathBuf>,
+    /// A mesh that is read for itself, with its cells.
+    mesh: Option<PathBuf>,
     cells: Cells,
     memory_bytes: Option<u64>,
 }
@@ -72,7 +74,7 @@ pub(super) fn rehearse(job: &Job, results: &[PathBuf], memory_bytes: Option<u64>
     let Some(path) = input::hdf5_file(job, results) else { return Ok(Rehearsed::Nothing) };
     let modes = job.reduction.modes_file().map(Path::to_owned).into_iter().chain(results.iter().cloned()).collect();
     let (model, matrices) = (Some(job.model.clone()), job.matrices.clone());
-    rehearsed(&Task { model, matrices, modes, cells: Cells::of(job), memory_bytes }, &path)
+    rehearsed(&Task { model, matrices, modes, mesh: None, cells: Cells::of(job), memory_bytes }, &path)
 }
 
 /// Reads one matrix in a child process, where the HDF5 library reads it.
@@ -85,8 +87,20 @@ pub(super) fn rehearse_matrix(matrix: &SingleMatrix, memory_bytes: Option<u64>) 
     }
     let (file, layout) = (matrix.file.clone(), matrix.layout);
     let matrices = vec![MatrixJob { name: "the matrix".to_owned(), kind: MatrixKind::Damping, file, layout }];
-    let task = Task { model: None, matrices, modes: Vec::new(), cells: Cells::Unwanted, memory_bytes };
+    let task = Task { model: None, matrices, modes: Vec::new(), mesh: None, cells: Cells::Unwanted, memory_bytes };
     rehearsed(&task, &matrix.path())
+}
+
+/// Reads one mesh with its cells in a child process, where the HDF5 library reads it.
+///
+/// # Errors
+/// Those of [`rehearse`].
+pub(super) fn rehearse_mesh(path: &Path, memory_bytes: Option<u64>) -> Result<Rehearsed> {
+    if !MeshInput::is_parsed_in_c(path) {
+        return Ok(Rehearsed::Nothing);
+    }
+    let (matrices, modes, mesh) = (Vec::new(), Vec::new(), Some(path.to_owned()));
+    rehearsed(&Task { model: None, matrices, modes, mesh, cells: Cells::Wanted, memory_bytes }, path)
 }
 
 fn rehearsed(task: &Task, path: &Path) -> Result<Rehearsed> {
@@ -184,7 +198,12 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     let mut stdout = std::io::stdout();
     stdout.write_all(STARTED).and_then(|()| stdout.flush()).map_err(failed)?;
     let files = (task.model.as_ref(), task.matrices.as_slice(), task.modes.as_slice());
-    match threads.install(|| input::read_hdf5_parts(files, task.cells, &Allowance::of(task.memory_bytes))) {
+    let allowance = Allowance::of(task.memory_bytes);
+    let read = || match &task.mesh {
+        Some(path) => MeshInput::read(path, &allowance).map(drop),
+        None => input::read_hdf5_parts(files, task.cells, &allowance),
+    };
+    match threads.install(read) {
         Ok(()) => Ok(ExitCode::Done),
         Err(error @ Error::OutOfMemory { .. }) => Err(error),
         Err(_) => Ok(ExitCode::InputData),

@@ -81,8 +81,9 @@ pub(super) struct InitFlags {
 pub(super) struct CertifyFlags {
     #[command(flatten)]
     pub(super) subject: SubjectFlags,
-    /// Shapes, a mode in each column and a value for every row of K: Matrix Market, .npy, a dataset as in modes.h5:/V, or the HDF5
-    /// file of Exudyn's FEMinterface, which has the frequencies too. With --reduced-stiffness the basis of a superelement
+    /// Shapes, a mode in each column and a value for every row of K: Matrix Market, .npy, a dataset as in modes.h5:/V; or the HDF5
+    /// file of Exudyn's FEMinterface or the .frd of CalculiX, which have the frequencies too. With --reduced-stiffness the basis of a
+    /// superelement
     #[arg(value_name = "RESULT")]
     pub(super) result: PathBuf,
     /// Frequencies of the shapes in Hz: a file with one on each line, a dataset, or numbers as in 31.2,87.5

@@ -9,7 +9,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::ConstraintModes;
+use super::{ConstraintModes, n_negative};
 use crate::dense;
 use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::{Error, Result};
@@ -80,7 +80,7 @@ pub fn with_mechanisms(
     for (j, (lambda, (error, terms))) in lambda.into_iter().zip(errors.iter().zip(terms)).enumerate() {
         let bar = error.data_bar * lambda.abs();
         let loose = || Loose { lambda, bar, nodes: most_moved(partition, dense::column(motions.as_ref(), j)) };
-        if zero::is_zero(lambda, error.zero_level) || is_rounding(partition, (lambda, error.zero_level))? {
+        if zero::is_zero(lambda, error.zero_level) || is_rounding(partition, constraint, (lambda, error.zero_level))? {
             free.push(j);
             found.mechanisms.push(loose());
         } else if lambda <= ROUNDINGS_OF_THE_PRODUCER * f64::EPSILON * terms {
@@ -97,7 +97,7 @@ pub fn with_mechanisms(
 }
 
 /// Whether a quotient below zero is rounding of the program that wrote K: where a count finds no eigenvalue below half of it.
-fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<bool> {
+fn is_rounding(partition: &Partition, constraint: &ConstraintModes<'_>, (lambda, noise): (f64, f64)) -> Result<bool> {
     if lambda > 0.0 {
         return Ok(false);
     }
@@ -105,7 +105,11 @@ fn is_rounding(partition: &Partition, (lambda, noise): (f64, f64)) -> Result<boo
     match whole_count(&analysis, partition.pencil(), 0.5 * lambda)?.below {
         0 => Ok(true),
         count => {
-            let error = Error::NegativeRigidEnergy { energy: lambda, noise, count };
+            // Beyond rounding it is no motion that should be free: the component buckles.
+            let error = match n_negative(partition, constraint)? {
+                0 => Error::NegativeRigidEnergy { energy: lambda, noise, count },
+                count => Error::IndefiniteStiffness { count, boundary: "free" },
+            };
             Err(few_digits(error, &analysis, (&partition.stiffness).into(), partition.precision.stiffness))
         }
     }

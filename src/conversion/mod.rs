@@ -1,4 +1,4 @@
-//! Matrices written again in the formats of other programs, every bit kept.
+//! Matrices written again in the formats of other programs, every bit kept, and meshes in that of VTK.
 //!
 //! A matrix that is symmetric to the bit is written as such. Numbers in text have as many digits as bring the double back.
 
@@ -9,6 +9,8 @@ mod matrix_market;
 mod npz;
 mod op4;
 mod target;
+mod vtkhdf;
 
 pub use content::{Content, Shape};
 pub use target::Target;
+pub use vtkhdf::write_mesh;

@@ -1,4 +1,4 @@
-//! Formats that matrices are written in.
+//! Formats that matrices are written in, and that of meshes.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::content::Content;
 use super::{matlab, matrix_market, npz, op4};
 use crate::error::{Error, Result};
 
-/// A format that matrices are written in.
+/// A format that matrices, or meshes, are written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Target {
     /// Matrix Market.
@@ -23,6 +23,8 @@ pub enum Target {
     Op4,
     /// OUTPUT4 of Nastran in binary.
     Op4Binary,
+    /// VTKHDF, of a mesh in place of a matrix.
+    Vtkhdf,
 }
 
 impl Target {
@@ -34,6 +36,7 @@ impl Target {
             "mat" | "h5" | "hdf5" => Self::Matlab,
             "npz" => Self::Npz,
             "op4" => Self::Op4,
+            "vtkhdf" => Self::Vtkhdf,
             _ => return None,
         })
     }
@@ -47,7 +50,7 @@ impl Target {
     ///
     /// # Errors
     /// [`Error::Write`]; [`Error::FeatureMissing`] for HDF5 in a program without it; [`Error::FlagText`] for a matrix of more rows than the
-    /// format has digits for.
+    /// format has digits for, and for the format of meshes.
     pub fn write(self, content: Content<'_>, path: &Path, out: &mut StagedWriter) -> Result<()> {
         let failed = |source| Error::Write { path: path.to_owned(), source };
         match self {
@@ -61,6 +64,7 @@ impl Target {
             Self::Op4 => op4::write_text(content.name, &ByColumns::of(content), out).map_err(failed),
             Self::Op4Binary => op4::write_binary(content.name, &ByColumns::of(content), out).map_err(failed),
             Self::Matlab => matlab::write(content.name, &ByColumns::of(content), path, out),
+            Self::Vtkhdf => Err(Error::FlagText { flag: "--to", text: self.name(), expected: "a format of matrices" }),
         }
     }
 }

@@ -22,6 +22,9 @@ use supel_runtime::motion::{IDENTITY_3, cross};
 /// Difference of K and the internal forces relative to the largest force, beyond rounding of K. Coordinates of five digits leave 1e-5 of
 /// the terms of K, where a preload to a strain of a thousandth makes 1e-3 of them.
 const OTHER_FORCES: f64 = 1e-2;
+/// The same at the nodes of a rigid patch relative to the largest force there, because its arms turn with them: a force that is far larger
+/// somewhere else excuses nothing. What five digits of the coordinates leave of the terms of K is no force.
+const OF_COORDINATES: f64 = 2e-5;
 /// Resultant of the internal forces relative to its terms: what four digits of them leave.
 const UNBALANCED: f64 = 1e-4;
 /// Internal force at a tied node relative to the largest that is none: what six digits leave.
@@ -32,8 +35,14 @@ pub(super) fn confirmed(motions: &Motions<'_>, nodes: &Nodes, forces: &[f64], ti
     refuse_held(motions, nodes)?;
     motions.bodies.iter().try_for_each(|body| refuse_unbalanced(motions, body, forces))?;
     let turned = Turned::of(motions, nodes, forces);
-    turned.refuse_misfit(motions)?;
+    turned.refuse_misfit(motions, &tied_rows(motions, tied))?;
     refuse_tied(motions, forces, tied)
+}
+
+/// The rows whose nodes belong to rigid patches.
+fn tied_rows(motions: &Motions<'_>, tied: &TiedNodes) -> Vec<bool> {
+    let Some(dofs) = &motions.model.dofs else { return vec![false; motions.sites.len()] };
+    dofs.iter().map(|dof| dof.is_some_and(|dof| tied.rigid.contains(&dof.node))).collect()
 }
 
 /// Refuses a K that supports have taken rows out of: their part of the forces is missing.
@@ -82,6 +91,8 @@ struct TurnedRow {
     found: [f64; 3],
     /// G, as forces.
     expected: [f64; 3],
+    /// The terms of K, as forces.
+    scale: f64,
     /// What rounding of K and of the levers can make of the difference.
     noise: f64,
     /// Size of the body, by which a rotation in its units is multiplied; twice for a moment.
@@ -116,20 +127,26 @@ impl Turned {
                 if size > noise {
                     largest_share = largest_share.max(if scale > 0.0 { size / scale } else { 1.0 });
                 }
-                of_row.push(TurnedRow { row, found, expected, noise, unit: body.frame.size / as_force });
+                of_row.push(TurnedRow { row, found, expected, scale, noise, unit: body.frame.size / as_force });
             }
         }
         Self { of_row, largest, largest_share }
     }
 
-    /// Refuses forces that are lost in rounding of K, and those that K does not answer with.
-    fn refuse_misfit(&self, motions: &Motions<'_>) -> Result<()> {
-        let differences = self.of_row.iter().flat_map(|of_row| {
-            (0..3).map(move |axis| ((of_row.found[axis] - of_row.expected[axis]).abs() - of_row.noise, of_row, axis))
+    /// Refuses forces that are lost in rounding of K, and those that K does not answer with; `is_tied` says which rows rigid patches have.
+    fn refuse_misfit(&self, motions: &Motions<'_>, is_tied: &[bool]) -> Result<()> {
+        let of_patches = self.of_row.iter().filter(|of_row| is_tied[of_row.row]);
+        let largest_tied = dense::worst(of_patches.flat_map(|of_row| of_row.expected.map(f64::abs)));
+        let limit = |of_row: &TurnedRow| match is_tied[of_row.row] {
+            true => (OTHER_FORCES * largest_tied).max(OF_COORDINATES * of_row.scale).min(OTHER_FORCES * self.largest),
+            false => OTHER_FORCES * self.largest,
+        };
+        let excesses = self.of_row.iter().flat_map(|of_row| {
+            let allowed = of_row.noise + limit(of_row);
+            (0..3).map(move |axis| ((of_row.found[axis] - of_row.expected[axis]).abs() - allowed, of_row, axis))
         });
-        let Some((difference, worst, axis)) = differences.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
-        let limit = OTHER_FORCES * self.largest;
-        if !self.largest.is_finite() || difference.is_nan() || difference > limit {
+        let Some((excess, worst, axis)) = excesses.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(()) };
+        if !self.largest.is_finite() || excess.is_nan() || excess > 0.0 {
             let unit = motions.model.scaling.stiffness_unit() * worst.unit;
             return Err(Error::PreloadMisfit {
                 axis: AXES[axis],
@@ -137,7 +154,7 @@ impl Turned {
                 found: unit * worst.found[axis],
                 expected: unit * worst.expected[axis],
                 factor: self.factor(),
-                limit: OTHER_FORCES,
+                limit: limit(worst) / self.largest,
             });
         }
         if self.largest_share == 0.0 {

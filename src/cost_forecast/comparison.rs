@@ -55,7 +55,7 @@ impl Comparisons {
         };
         let n_supports = scene.boundaries.as_ref().map_or(2.0 * sizes.n_interfaces, |stated| stated.len() as f64);
         let frequencies = weigh("frequencies under other boundaries", others(sizes, n_supports), is_stated);
-        let is_stated = is_full || scene.band_hz.is_some() || scene.damping.is_some() || accept.response_db.is_some();
+        let is_stated = is_full || scene.band_hz.is_some() || scene.damping.is_some() || accept.accepts_response();
         let response = weigh("frequency response", response(sizes), is_stated);
         Self { frequencies, response }
     }

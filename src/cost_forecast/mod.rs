@@ -10,6 +10,7 @@
 mod comparison;
 mod expected;
 mod forecast;
+mod foreseen;
 mod sizes;
 mod stage;
 mod work;
@@ -17,6 +18,7 @@ mod work;
 pub use comparison::{Band, Comparisons};
 pub use expected::{Counting, ExpectedModes, Known};
 pub use forecast::Forecast;
+pub use foreseen::Foreseen;
 pub use sizes::{Proofs, Sizes};
 pub use stage::{Need, Stage, stages};
 pub use work::{NOMINAL, Rates, Work};

@@ -25,6 +25,7 @@ use crate::dense;
 use crate::error::{Error, Result};
 use crate::random::SplitMix64;
 use crate::sparse::product;
+use crate::tally;
 
 /// Restarts after which an iteration that has not converged never will.
 const MAX_RESTARTS: usize = 60;
@@ -66,7 +67,9 @@ pub fn lanczos(problem: Problem<'_>, wanted: Wanted, seed: u64) -> Result<Eigenp
 /// # Errors
 /// A dense eigenproblem that does not converge.
 pub fn lanczos_between(problem: Problem<'_>, interval: Interval, seed: u64) -> Result<Eigenpairs> {
-    run(problem, Goal::Between(interval), seed)
+    let found = run(problem, Goal::Between(interval), seed)?;
+    tally::found(found.values.len());
+    Ok(found)
 }
 
 fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
@@ -262,6 +265,9 @@ impl<'a> KrylovBasis<'a> {
         // Ritz pairs cost m³ and a wide basis is not worth looking at after every block.
         self.look_at = self.size + self.size / STEPS_BETWEEN_LOOKS;
         let ritz = self.ritz()?;
+        if let Goal::Lowest(_) = goal {
+            tally::converged((0..ritz.theta.len()).take_while(|j| ritz.is_converged(*j)).count());
+        }
         let sigma = self.problem.operator.shift();
         let taken = match goal {
             Goal::Lowest(wanted) => ritz.count_wanted(wanted, sigma).map(|count| (0..count).collect()),

@@ -68,6 +68,12 @@ impl Supernode<'_> {
     pub(super) fn n_trapezoid(&self) -> usize {
         (self.steps.len() + self.below.len()).saturating_mul(self.steps.len())
     }
+
+    /// Operations of its elimination: the squares of the lengths of its columns.
+    pub(super) fn flops(&self) -> u64 {
+        let (size, below) = (self.steps.len() as u64, self.below.len() as u64);
+        (below + 1..=below + size).map(|length| length * length).sum()
+    }
 }
 
 impl Analysis {

@@ -23,6 +23,7 @@ use super::entry::Entry;
 use super::matrix::Shifted;
 use super::panels::{self, Panels, Shape};
 use crate::heap::fallibly;
+use crate::tally;
 pub(super) use assembly::Stop;
 use assembly::{Places, Rest, RestStack, rest_len};
 
@@ -326,6 +327,7 @@ impl Run<'_> {
         if let Some(values) = part.values {
             panels::pack(trapezoid.as_ref(), values);
         }
+        tally::eliminated(node.flops());
         if self.kind == Kind::Definite {
             return Ok(0.0);
         }

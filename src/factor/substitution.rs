@@ -20,6 +20,7 @@ use super::elimination::Kind;
 use super::entry::Entry;
 use super::multifrontal::{Numbers, lock};
 use super::rows::{Block, Row};
+use crate::tally;
 
 /// Rows that are packed or unpacked by one task.
 const PACK_ROWS: usize = 1024;
@@ -100,6 +101,7 @@ impl<'a, T: Entry> Factor<'a, T> {
             let at_border = pack::<W>(border.subcols(start, width), |row| row);
             self.backward(&mut rows, &at_border);
             self.unpack(&rows, x.as_mut().subcols_mut(start, width));
+            tally::solved(width);
         }
         x
     }
@@ -135,6 +137,7 @@ impl<'a, T: Entry> Factor<'a, T> {
             let border = pack::<W>(interface.as_ref(), |row| row);
             self.backward(&mut rows, &border);
             self.unpack(&rows, internal.rb_mut());
+            tally::solved(width);
         }
     }
 
@@ -142,10 +145,12 @@ impl<'a, T: Entry> Factor<'a, T> {
     fn solve_tile<const W: usize>(self, tile: MatMut<'_, f64>) {
         let mut rows = pack::<W>(tile.as_ref(), |step| self.analysis.given()[step] as usize);
         let mut border = vec![[0.0; W]; self.analysis.n_border()];
+        let width = tile.ncols();
         self.forward(&mut rows, &mut border);
         border.fill([0.0; W]);
         self.backward(&mut rows, &border);
         self.unpack(&rows, tile);
+        tally::solved(width);
     }
 
     fn unpack<const W: usize>(self, rows: &[Row<W>], tile: MatMut<'_, f64>) {

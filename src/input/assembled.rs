@@ -132,7 +132,7 @@ impl<'a> Collector<'a> {
 impl MatrixRole {
     /// Whether it may be any matrix, whatever its name says.
     pub(super) fn takes_any(self) -> bool {
-        matches!(self, Self::Further | Self::Conversion)
+        matches!(self, Self::Further | Self::Conversion | Self::Reduced)
     }
 
     /// What entries of it stand for where the format does not say that one triangle stands for both.

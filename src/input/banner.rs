@@ -103,7 +103,9 @@ impl<'a> HeadReader<'a> {
         };
         let symmetries: &[&str] = match self.role {
             MatrixRole::Stiffness | MatrixRole::Mass => &["symmetric", "general"],
-            MatrixRole::Further | MatrixRole::Conversion => &["symmetric", "general", "skew-symmetric"],
+            MatrixRole::Further | MatrixRole::Conversion | MatrixRole::Reduced => {
+                &["symmetric", "general", "skew-symmetric"]
+            }
         };
         let supported: [(&str, &[&str]); 4] =
             [(object, &["matrix"]), (format, &["coordinate"]), (field, &["real", "integer"]), (symmetry, symmetries)];

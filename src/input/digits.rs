@@ -83,7 +83,8 @@ impl Digits {
     pub const DOUBLE: Self = Self::relative(DOUBLE_DIGITS);
     const SINGLE: Self = Self { by: DigitsBy::SinglePrecision, ..Self::relative(SINGLE_DIGITS) };
 
-    const fn relative(significant: u32) -> Self {
+    /// Of so many digits, each value relative to itself.
+    pub(super) const fn relative(significant: u32) -> Self {
         Self { significant, decimals: None, by: DigitsBy::Values }
     }
 

@@ -6,6 +6,7 @@
 
 mod area;
 mod cell;
+mod cell_list;
 mod covering;
 
 use std::collections::BTreeMap;
@@ -13,6 +14,7 @@ use std::path::Path;
 
 use area::{Moments, minus, moments};
 pub(super) use cell::{Cell, Shape};
+pub(super) use cell_list::CellList;
 use covering::{Found, Skin, Volumes, counted};
 use supel_runtime::motion::dot;
 
@@ -24,6 +26,8 @@ use crate::error::Result;
 const FACE: u64 = 768;
 /// Bytes of a face while faces of different kinds are compared.
 const COMPARED: u64 = 256;
+/// Bytes of the index of a node in a cell, while cells are listed and put in another order.
+const INDEX: u64 = 8;
 /// Bytes of a node's place in a patch.
 const MEMBER: u64 = 8;
 /// Faces after which their memory is claimed.
@@ -45,6 +49,8 @@ pub(super) struct Gathered<'a> {
     faces: BTreeMap<(u32, Vec<usize>), Found>,
     /// Faces of these patches have nodes that are on no edge as far as any order tells.
     is_unclear: Vec<bool>,
+    /// All cells, where they are wanted.
+    list: Option<CellList>,
     claim: Claim<'a>,
 }
 
@@ -69,7 +75,19 @@ impl<'a> Gathered<'a> {
             layers.push(layer);
         }
         let is_unclear = vec![false; patches.list.len()];
-        Ok(Self { patches, members, layers, faces: BTreeMap::new(), is_unclear, claim })
+        Ok(Self { patches, members, layers, faces: BTreeMap::new(), is_unclear, list: None, claim })
+    }
+
+    /// Keeps all cells from now on.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn listing(self) -> Self {
+        Self { list: Some(CellList::default()), ..self }
+    }
+
+    /// The cells that were kept.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn into_list(self) -> CellList {
+        self.list.unwrap_or_default()
     }
 
     /// Nodes of the file.
@@ -86,6 +104,10 @@ impl<'a> Gathered<'a> {
 
     /// Takes up a cell; its nodes are indices below [`Self::n_nodes`].
     pub(super) fn add(&mut self, cell: Cell, nodes: &[usize]) -> Result<()> {
+        if let Some(list) = &mut self.list {
+            self.claim.add(INDEX * nodes.len() as u64)?;
+            list.extend(cell, nodes.iter().map(|node| *node as u32));
+        }
         for (layer, corners) in
             (0..self.members.len()).flat_map(|layer| cell.faces().iter().map(move |face| (layer, face)))
         {

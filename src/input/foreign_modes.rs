@@ -4,13 +4,18 @@
 
 use std::path::Path;
 
-use super::digits::digits_of_columns;
+use super::digits::{Digits, digits_of_columns};
 use super::file_start::FileStart;
+use super::frd_modes;
 use super::hdf5_format;
 use super::member::split_member;
 use super::mode_format::{ModeSource, ReadModes};
 use super::mode_rounding::ModeRounding;
+use super::mode_rows::ModeRows;
 use super::modes_file::{ModeColumns, mode_columns};
+use super::npy_header::is_array;
+use super::npy_series;
+use super::npz;
 use super::op4;
 use super::{Allowance, ModeValues};
 use crate::error::{Error, Result};
@@ -29,6 +34,8 @@ pub struct ForeignModes {
     pub rounding: ModeRounding,
     /// Whether modes may be in the rows of what was read as columns.
     pub orientation: Orientation,
+    /// What reading left out, one sentence each.
+    pub notes: Vec<String>,
     /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.
     pub digest: String,
 }
@@ -50,34 +57,38 @@ struct ModeFormat {
 }
 
 /// The formats, those that know more than shapes first; what none of them takes is a matrix of numbers.
-const FORMATS: [ModeFormat; 2] = [
+const FORMATS: [ModeFormat; 5] = [
     ModeFormat { is_one: |source, start| start.is_hdf5() && source.member.is_none(), read: hdf5_format::foreign_modes },
     ModeFormat { is_one: |_, start| op4::begins(start), read: op4::modes },
+    ModeFormat { is_one: |_, start| frd_modes::begins(start), read: frd_modes::modes },
+    ModeFormat { is_one: |_, start| npz::begins(start), read: npz::modes },
+    ModeFormat { is_one: |source, start| source.member.is_some() && is_array(&start.head), read: npy_series::modes },
 ];
 
-/// Reads the modes of another program, for matrices of `n_rows` rows in their files.
+/// Reads the modes of another program, for matrices of these rows.
 ///
 /// # Errors
-/// Those of [`super::mode_columns`]; [`Error::ValuesCount`] where the file has more or fewer frequencies than shapes.
-pub fn foreign_modes(path: &Path, n_rows: usize, allowance: &Allowance) -> Result<ForeignModes> {
+/// Those of [`super::mode_columns`]; [`Error::ValuesCount`] where the file has more or fewer frequencies than shapes;
+/// [`Error::ModesFormat`] where a row has no value in a file of nodes and directions.
+pub fn foreign_modes(path: &Path, rows: &ModeRows, allowance: &Allowance) -> Result<ForeignModes> {
     let (file, member) = split_member(path);
-    let source = ModeSource { file, member, n_rows, allowance };
+    let source = ModeSource { file, member, rows, allowance };
     let start = FileStart::of(&source.file)?;
     let (read, digest) = match FORMATS.iter().find(|format| (format.is_one)(&source, &start)) {
         Some(format) => unchanged(&source.file, || Ok(((format.read)(&source)?, digest(&source.file)?)))?,
         None => {
-            let ModeColumns { columns, digest } = mode_columns(path, n_rows, allowance)?;
-            (ReadModes { columns, values: None, program: None }, digest)
+            let ModeColumns { columns, digest } = mode_columns(path, rows.n, allowance)?;
+            (ReadModes::of_columns(columns), digest)
         }
     };
-    let ReadModes { columns, values, program } = read;
+    let ReadModes { columns, values, program, digits, notes } = read;
     let values = values.map(|(unit, numbers)| ModeValues::new(unit, numbers));
     let n_modes = columns.len();
     if let Some(values) = values.as_ref().filter(|values| values.numbers.len() != n_modes) {
         return Err(Error::ValuesCount { path: Some(source.file), found: values.numbers.len() as u64, n_modes });
     }
-    let is_square = start.is_hdf5() && program.is_none() && n_modes == n_rows;
+    let is_square = start.is_hdf5() && program.is_none() && n_modes == rows.n;
     let orientation = if is_square { Orientation::Square } else { Orientation::Known };
-    let rounding = ModeRounding::of(digits_of_columns(&columns));
-    Ok(ForeignModes { rounding, columns, values, program, orientation, digest })
+    let rounding = ModeRounding::of(digits.map_or_else(|| digits_of_columns(&columns), Digits::relative));
+    Ok(ForeignModes { rounding, columns, values, program, orientation, notes, digest })
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::blocks::LastLine;
+use super::faces::CellList;
 use super::file_start::FileStart;
 use super::patch::{PatchFaces, Patches};
 use super::row_label::RowLabel;
@@ -90,6 +91,14 @@ pub(super) trait NodeFormat: Format {
         false
     }
 
+    /// All cells of the file; `coordinates` are those of its nodes.
+    ///
+    /// # Errors
+    /// The errors of [`NodeFormat::read_faces`].
+    fn read_cells(&self, _path: &Path, _coordinates: &[[f64; 3]], _allowance: &Allowance) -> Result<ReadCells> {
+        Ok(ReadCells::default())
+    }
+
     /// The faces of patches, from the cells of the file.
     ///
     /// # Errors
@@ -107,6 +116,14 @@ pub(super) struct ReadNodes {
     pub(super) data_digest: Option<String>,
     /// File and line that give nodes local directions, the first of them.
     pub(super) local_directions: Option<(PathBuf, u64)>,
+}
+
+/// Cells as their format left them.
+#[derive(Default)]
+pub(super) struct ReadCells {
+    pub(super) cells: CellList,
+    /// What the mesh has that is not read, in words; then the cells are not all of them.
+    pub(super) unread: Option<String>,
 }
 
 impl ReadNodes {

@@ -19,11 +19,23 @@ use super::npy_matrix::NpyMatrix;
 use super::npz::Npz;
 use super::op4::Op4;
 use super::unsupported_format::{self, Wanted};
+use super::user_element::UserElement;
 use crate::error::{Error, Result};
 
 /// Formats of matrices.
-const MATRICES: [&dyn MatrixFormat; 10] =
-    [&MatrixMarket, &Hdf5Matrix, &Matlab5, &Npz, &NpyMatrix, &Op4, &Dmig, &AbaqusLabels, &HarwellBoeing, &Coordinate];
+const MATRICES: [&dyn MatrixFormat; 11] = [
+    &MatrixMarket,
+    &Hdf5Matrix,
+    &Matlab5,
+    &Npz,
+    &NpyMatrix,
+    &Op4,
+    &Dmig,
+    &AbaqusLabels,
+    &UserElement,
+    &HarwellBoeing,
+    &Coordinate,
+];
 /// Formats of nodes.
 const NODES: [&dyn NodeFormat; 7] =
     [&Hdf5Mesh, &mesh::DECK, &mesh::GMSH, &mesh::FRD, &mesh::VTK, &mesh::VTU, &NodeTable];

@@ -8,6 +8,8 @@ use super::Allowance;
 #[cfg(feature = "hdf5")]
 use super::Digits;
 use super::file_start::FileStart;
+#[cfg(feature = "hdf5")]
+use super::format::ReadCells;
 use super::format::{Format, MatrixFormat, MatrixSource, NodeFormat, ReadMatrix, ReadNodes, Sureness};
 #[cfg(feature = "hdf5")]
 use super::hdf5;
@@ -54,7 +56,7 @@ pub(super) fn mode_columns(
 /// Those of [`super::mode_columns`]; [`Error::FeatureMissing`] where the program is built without the library.
 pub(super) fn foreign_modes(source: &ModeSource<'_>) -> Result<ReadModes> {
     #[cfg(feature = "hdf5")]
-    return hdf5::feminterface_modes(&source.file, source.n_rows, source.allowance);
+    return hdf5::feminterface_modes(&source.file, source.rows.n, source.allowance);
     #[cfg(not(feature = "hdf5"))]
     return Err(Error::FeatureMissing { path: source.file.clone(), feature: "hdf5" });
 }
@@ -142,6 +144,10 @@ impl NodeFormat for Hdf5Mesh {
 
     fn has_cells(&self) -> bool {
         true
+    }
+
+    fn read_cells(&self, path: &Path, coordinates: &[[f64; 3]], allowance: &Allowance) -> Result<ReadCells> {
+        hdf5::read_cells(path, coordinates, allowance)
     }
 
     fn read_faces(&self, path: &Path, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {

@@ -31,6 +31,7 @@ mod foreign_modes;
 mod format;
 mod formats;
 mod fortran;
+mod frd_modes;
 mod further_matrix;
 mod gathering;
 mod harwell_boeing;
@@ -47,9 +48,11 @@ mod matlab5;
 mod matrix_market;
 mod member;
 mod mesh;
+mod mesh_input;
 mod mode_format;
 mod mode_matrix;
 mod mode_rounding;
+mod mode_rows;
 mod mode_values;
 mod model_files;
 mod modes_file;
@@ -61,6 +64,7 @@ mod note;
 mod npy;
 mod npy_header;
 mod npy_matrix;
+mod npy_series;
 mod npz;
 mod numpy_array;
 mod op4;
@@ -70,6 +74,7 @@ mod quantity_files;
 mod raw_numbers;
 mod recorded;
 mod rectangular;
+mod reduced_pair;
 mod row_label;
 mod single_matrix;
 mod single_precision;
@@ -79,6 +84,7 @@ mod table;
 mod tag_groups;
 mod unit_mass;
 mod unsupported_format;
+mod user_element;
 mod value_unit;
 mod written;
 mod xml_size;
@@ -94,7 +100,9 @@ pub use foreign_modes::{ForeignModes, Orientation, foreign_modes};
 pub use further_matrix::FurtherMatrix;
 pub use load_file::{LoadColumn, WantedColumn, load_column};
 pub use map_and_nodes::nodes;
+pub use mesh_input::{MeshInput, VtkCells};
 pub use mode_rounding::ModeRounding;
+pub use mode_rows::ModeRows;
 pub use mode_values::{ModeValues, ValueSource};
 pub use model_files::{
     Input, expansion_columns, further_matrices, job_quantities, load_columns, read, read_hdf5_parts, read_within,
@@ -107,6 +115,7 @@ pub use patch::{Face, Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, looks_at_faces, patch_faces};
 pub use quantity_files::{QuantityRows, quantity_rows};
 pub use recorded::changed_role;
+pub use reduced_pair::ReducedPair;
 pub use single_matrix::{ReadSingle, SingleMatrix};
 pub use state_table::{StateRow, StateTable};
 pub use value_unit::ValueUnit;
@@ -141,6 +150,8 @@ pub enum MatrixRole {
     Further,
     /// A matrix that is written in another format as it is.
     Conversion,
+    /// A reduced matrix of another program, whose symmetry is measured.
+    Reduced,
 }
 
 impl MatrixRole {
@@ -151,6 +162,7 @@ impl MatrixRole {
             Self::Mass => "mass",
             Self::Further => "further matrix",
             Self::Conversion => "which one is meant",
+            Self::Reduced => "reduced matrix",
         }
     }
 }

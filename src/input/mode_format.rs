@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::Allowance;
+use super::mode_rows::ModeRows;
 use super::value_unit::ValueUnit;
 
 /// A file of modes.
@@ -10,8 +11,8 @@ pub(super) struct ModeSource<'a> {
     pub(super) file: PathBuf,
     /// The place in the file that was named.
     pub(super) member: Option<String>,
-    /// Rows of the matrices in their files.
-    pub(super) n_rows: usize,
+    /// The rows of the matrices in their files.
+    pub(super) rows: &'a ModeRows,
     pub(super) allowance: &'a Allowance,
 }
 
@@ -21,4 +22,15 @@ pub(super) struct ReadModes {
     /// What the numbers are that stand next to the shapes, and one for each mode.
     pub(super) values: Option<(ValueUnit, Vec<f64>)>,
     pub(super) program: Option<&'static str>,
+    /// Digits that the format gives each number of the shapes; none where the numbers themselves tell.
+    pub(super) digits: Option<u32>,
+    /// What reading left out, one sentence each.
+    pub(super) notes: Vec<String>,
+}
+
+impl ReadModes {
+    /// Shapes of a format that gives them as they are, one value for every row.
+    pub(super) fn of_columns(columns: Vec<Vec<f64>>) -> Self {
+        Self { columns, values: None, program: None, digits: None, notes: Vec::new() }
+    }
 }

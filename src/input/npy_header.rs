@@ -12,7 +12,8 @@ use std::io::Read;
 
 use super::mode_matrix::Order;
 
-const MAGIC: &[u8] = b"\x93NUMPY";
+/// The first bytes of an array.
+pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 /// Magic and version.
 const PREFIX: usize = 8;
 /// The longest header: one of two numbers takes less than a hundred bytes.

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use super::MatrixInput;
 use super::archive::Archive;
 use super::assembled::Collector;
 use super::compressed::{Compressed, Major, order};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
+use super::mode_format::{ModeSource, ReadModes};
 use super::named::chosen;
 use super::numpy_array::{Array, Reals};
+use super::{MatrixInput, MatrixRole};
 use crate::error::{Error, Result};
 use crate::job::Layout;
 use crate::regular_file::digest;
@@ -23,8 +24,7 @@ pub(super) struct Npz;
 
 impl Format for Npz {
     fn sureness(&self, start: &FileStart<'_>) -> Sureness {
-        let is_archive = start.packing.is_none() && start.head.starts_with(b"PK") && start.holds(b".npy");
-        if is_archive { Sureness::Certain } else { Sureness::Unlikely }
+        if begins(start) { Sureness::Certain } else { Sureness::Unlikely }
     }
 }
 
@@ -42,6 +42,32 @@ impl MatrixFormat for Npz {
         let input = if reading.archive.has("format.npy") { reading.sparse() } else { reading.dense() };
         input.map(ReadMatrix::with_size)
     }
+}
+
+/// The modes in the columns of an array of an archive.
+///
+/// # Errors
+/// As for matrices, and those of [`Array::modes`].
+pub(super) fn modes(source: &ModeSource<'_>) -> Result<ReadModes> {
+    let path = source.file.as_path();
+    let archive = Archive::open(path, FORMAT)?;
+    let names: Vec<&str> = archive.names().filter_map(|name| name.strip_suffix(".npy")).collect();
+    if names.is_empty() {
+        let holds = archive.names().map(str::to_owned).collect();
+        return Err(Error::MatrixNone {
+            path: path.to_owned(),
+            format: FORMAT,
+            holds,
+            expected: "an array of numpy.savez",
+        });
+    }
+    let name = format!("{}.npy", names[chosen(path, &names, source.member.as_deref(), MatrixRole::Further)?]);
+    Array::open(path, FORMAT, &name, archive.member(&name)?)?.modes(source)
+}
+
+/// Whether a file is one of the format.
+pub(super) fn begins(start: &FileStart<'_>) -> bool {
+    start.packing.is_none() && start.head.starts_with(b"PK") && start.holds(b".npy")
 }
 
 struct Reading<'a> {

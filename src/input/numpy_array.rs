@@ -6,7 +6,8 @@ use std::path::Path;
 use super::assembled::Collector;
 use super::compressed::order;
 use super::format::MatrixSource;
-use super::mode_matrix::Order;
+use super::mode_format::{ModeSource, ReadModes};
+use super::mode_matrix::{NUMBER, Order, checked_count, columns_of, refuse_not_finite};
 use super::npy_header::{Failure as NoHeader, Header};
 use super::raw_numbers::{self, Endian, Failure, Kind, fill};
 use super::source::read_error;
@@ -150,6 +151,26 @@ impl<'a, R: Read> Array<'a, R> {
         read.map_err(|failure| self.error(failure))?;
         self.end()?;
         Ok((entries, n, stored.0.digits()))
+    }
+
+    /// Modes in its columns; in an array of one dimension, the only one.
+    pub(super) fn modes(self, source: &ModeSource<'_>) -> Result<ReadModes> {
+        let (path, n_rows) = (self.path, source.rows.n);
+        let (rows, n_columns) = match self.header.shape[..] {
+            [rows] => (rows, 1),
+            [rows, columns] => (rows, columns),
+            _ => return Err(self.unread("an array of rows and modes")),
+        };
+        if rows != n_rows as u64 {
+            return Err(Error::ModesRows { path: path.to_owned(), found: rows, n: n_rows });
+        }
+        let n_columns = checked_count(path, n_columns, n_rows)?;
+        // The numbers as they are read and in columns.
+        source.allowance.claim(path).add(2 * NUMBER * rows * n_columns as u64)?;
+        let order = self.header.order;
+        let columns = columns_of(&self.reals()?.values, [n_rows, n_columns], order);
+        refuse_not_finite(path, &columns)?;
+        Ok(ReadModes::of_columns(columns))
     }
 
     fn n_numbers(&self) -> Result<u64> {

@@ -23,7 +23,8 @@ impl Wanted {
 }
 
 /// What to do where a mesh was given for a matrix.
-const NO_MATRIX: &str = "it holds no assembled matrices: have the program that made the model write them";
+const NO_MATRIX: &str = "it holds no assembled matrices: have the program that made the model write them (`supel convert` writes a mesh as \
+                         NAME.vtkhdf)";
 /// What to do where a deck was given for a matrix.
 const FROM_DECK: &str =
     "have the program write its matrices (CalculiX: *FREQUENCY, SOLVER=MATRIXSTORAGE; Abaqus: *MATRIX GENERATE)";

@@ -19,6 +19,10 @@ pub struct AcceptJob {
     #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub response_db: Option<f64>,
+    /// Relative error of the internal loads in the band under forces on the interface dofs, as stresses weighted by their strains.
+    #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub internal_load: Option<f64>,
     /// Relative error of the static stiffness of each interface, and of the static answer to each load that the job names.
     #[schemars(extend("minimum" = SMALLEST, "maximum" = LARGEST))]
     #[serde(default, rename = "static", skip_serializing_if = "Option::is_none")]
@@ -26,10 +30,21 @@ pub struct AcceptJob {
 }
 
 impl AcceptJob {
+    /// Whether it limits an error that more modes make smaller.
+    pub fn limits_modes(&self) -> bool {
+        self.frequency.is_some() || self.accepts_response()
+    }
+
+    /// Whether it limits an error of the frequency response.
+    pub fn accepts_response(&self) -> bool {
+        self.response_db.is_some() || self.internal_load.is_some()
+    }
+
     pub(super) fn validate(&self) -> Result<()> {
         let limits = [
             ("scene.accept.frequency", self.frequency),
             ("scene.accept.response_db", self.response_db),
+            ("scene.accept.internal_load", self.internal_load),
             ("scene.accept.static", self.statics),
         ];
         limits.into_iter().try_for_each(|(key, limit)| limit.map_or(Ok(()), |limit| size(key, limit)))

@@ -24,6 +24,8 @@ pub enum Layout {
     Dmig,
     /// Lines `node, dof, node, dof, value`, which Abaqus writes unless it is told otherwise.
     AbaqusLabels,
+    /// Matrices of a linear user element, as `*SUBSTRUCTURE MATRIX OUTPUT` of Abaqus and CalculiX writes them.
+    UserElement,
     /// Harwell-Boeing and Rutherford-Boeing, HBMAT of Ansys.
     HarwellBoeing,
     /// HDF5: MATLAB v7.3, PETSc, anndata, h5sparse, Exudyn, Octave, Julia, Binsparse, MSC Nastran.

@@ -87,6 +87,7 @@ impl SceneJob {
             ("damping", self.damping.is_some()),
             ("accept.frequency", accept.frequency.is_some()),
             ("accept.response_db", accept.response_db.is_some()),
+            ("accept.internal_load", accept.internal_load.is_some()),
         ];
         keys.into_iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key)
     }

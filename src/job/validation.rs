@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::accept::AcceptJob;
 use super::interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
 use super::method::{Boundary, ModeOrigin};
 use super::node_selection::NodeSelection;
@@ -46,8 +45,7 @@ pub(super) fn validate(job: &Job) -> Result<()> {
 fn reduction(job: &Job) -> Result<()> {
     // The band decides how many modes are kept where nothing else does.
     let has_band = job.scene.as_ref().is_some_and(|scene| scene.band_hz.is_some());
-    let AcceptJob { frequency, response_db, .. } = job.accepted();
-    let accepts_errors_of_modes = has_band && (frequency.is_some() || response_db.is_some());
+    let accepts_errors_of_modes = has_band && job.accepted().limits_modes();
     let job = &job.reduction;
     let method = job.method.key();
     let computed = format!(
@@ -62,7 +60,7 @@ fn reduction(job: &Job) -> Result<()> {
         (ModeOrigin::File, None) => refuse("missing", of_file),
         (ModeOrigin::Computed, Some(ModesJob::Accepted { .. })) if !accepts_errors_of_modes => refuse(
             "accept = true",
-            "expected a scene with a `band_hz` and with `frequency` or `response_db` in its `accept`, which the modes have to meet"
+            "expected a scene with a `band_hz` and with `frequency`, `response_db` or `internal_load` in its `accept`, which the modes have to meet"
                 .to_owned(),
         ),
         (ModeOrigin::File, Some(ModesJob::Accepted { .. } | ModesJob::Computed(_))) => refuse("without a file", of_file),

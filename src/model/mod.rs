@@ -119,6 +119,9 @@ impl Model {
         multipliers::refuse(&stiffness, &mass, names)?;
         let constraints = input.constraints;
         let tied = constraints.as_ref().map_or_else(Vec::new, ConstraintRows::tied);
+        if input.internal_forces.is_none() {
+            refuse_negative_diagonals(&stiffness, names)?;
+        }
         check_diagonals((&stiffness, &mass), names, &tied, &mut findings)?;
         findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
         clear_negative_rounding(&mut mass);
@@ -295,7 +298,7 @@ fn check_diagonals(
     }
     let (mut massless, mut rounding) = (0, 0);
     let (mut empty, mut particles) = (Vec::new(), Vec::new());
-    for row in 0..n {
+    for (row, m) in m_diag.iter().copied().enumerate() {
         let k_empty = is_empty_row(stiffness, row);
         let m_empty = is_empty_row(mass, row);
         if k_empty && m_empty {
@@ -306,18 +309,12 @@ fn check_diagonals(
         }
         if k_empty {
             particles.push(row);
-        } else if k_diag[row] < 0.0 {
-            return Err(Error::NegativeStiffness {
-                row: names.number(row),
-                dof: names.bracketed(row),
-                value: k_diag[row],
-            });
         }
         if m_empty {
             massless += 1;
-        } else if m_diag[row] < -(n as f64) * f64::EPSILON * m_max {
-            return Err(Error::NegativeMass { row: names.number(row), dof: names.bracketed(row), value: m_diag[row] });
-        } else if m_diag[row] < 0.0 {
+        } else if m < -(n as f64) * f64::EPSILON * m_max {
+            return Err(Error::NegativeMass { row: names.number(row), dof: names.bracketed(row), value: m });
+        } else if m < 0.0 {
             rounding += 1;
         }
     }
@@ -334,6 +331,17 @@ fn check_diagonals(
     findings.extend(Finding::free_particles(particles, names));
     findings.extend(penalties(&k_diag, names));
     Ok(())
+}
+
+/// Refuses a dof without stiffness of its own but a negative one. A preloaded component may have such dofs where the job holds them or a
+/// patch carries them; where neither does, the factor counts the negative eigenvalues that they make.
+fn refuse_negative_diagonals(stiffness: &SparseMatrix, names: RowNames<'_>) -> Result<()> {
+    match diagonal(stiffness).into_iter().enumerate().find(|(_, value)| *value < 0.0) {
+        Some((row, value)) => {
+            Err(Error::NegativeStiffness { row: names.number(row), dof: names.bracketed(row), value })
+        }
+        None => Ok(()),
+    }
 }
 
 /// Rows whose stiffness no structure has.

@@ -25,6 +25,7 @@ fn exceeded(accuracy: &Accuracy) -> Option<Warning> {
     let (what, differ, of, key) = match accuracy.measure {
         AccuracyMeasure::Frequency => ("frequencies", "differ", "those", "frequency"),
         AccuracyMeasure::Response => ("the frequency response", "differs", "that", "response_db"),
+        AccuracyMeasure::InternalLoad => ("internal loads", "differ", "those", "internal_load"),
         AccuracyMeasure::Static => ("statics", "differ", "those", "static"),
     };
     let size = match error.is_finite() {

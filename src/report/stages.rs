@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use crate::cost_forecast::Foreseen;
 use crate::error::Warning;
 
 /// Hears of each stage of the pipeline as it begins.
@@ -12,6 +13,9 @@ use crate::error::Warning;
 pub trait Observer {
     /// A stage begins, and with it the one before has ended.
     fn stage(&mut self, name: &'static str);
+
+    /// What is foreseen of the stages still to come; it may come again when more is known.
+    fn foreseen(&mut self, _foreseen: &Foreseen) {}
 
     /// What is known before the long work begins, and will stand in the report.
     fn warned(&mut self, _warning: &Warning) {}
@@ -67,6 +71,10 @@ impl<O: Observer + ?Sized> Observer for StageClock<'_, O> {
         self.stop();
         self.listener.stage(name);
         self.running = Some((name, Instant::now()));
+    }
+
+    fn foreseen(&mut self, foreseen: &Foreseen) {
+        self.listener.foreseen(foreseen);
     }
 
     fn warned(&mut self, warning: &Warning) {

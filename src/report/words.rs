@@ -68,6 +68,7 @@ fn accuracy_of(accuracy: &Accuracy) -> (&'static str, String) {
     let label = match accuracy.measure {
         AccuracyMeasure::Frequency => "frequencies",
         AccuracyMeasure::Response => "response",
+        AccuracyMeasure::InternalLoad => "internal loads",
         AccuracyMeasure::Static => "statics",
     };
     let at = accuracy.at.as_deref().unwrap_or("the comparison was not made");

@@ -9,8 +9,8 @@ use crate::job::Boundary;
 use crate::partition::Partition;
 use crate::sparse::{SparseMatrix, diagonal, product};
 
-/// Singular values of the rigid-body motions at the held dofs, relative to the largest, below which a motion passes. The
-/// interface rank uses the same figure.
+/// Singular values of the rigid-body motions at the held dofs, relative to the largest or to the motions anywhere, below which a motion
+/// passes. The interface rank uses the same figure.
 const PASSES: f64 = 1e-10;
 
 /// Rigid-body modes with those that pass where the partition holds some of its interface for its modes.
@@ -86,7 +86,9 @@ pub(crate) fn n_passing(motions: MatRef<'_, f64>, scales: &[f64], held: &[usize]
     let lengths: Vec<f64> = (0..n_r).map(length).collect();
     let at_held = Mat::from_fn(held.len().max(n_r), n_r, |i, j| held.get(i).map_or(0.0, |at| of(*at, j) / lengths[j]));
     let (singular, _) = dense::right_singular(at_held.as_ref())?;
-    Ok(singular.iter().filter(|value| **value <= PASSES * singular[0]).count())
+    // Where all of them pass, the largest is rounding itself: then a motion that does not is as large as it is anywhere.
+    let anywhere = 1.0 / (motions.nrows() as f64).sqrt();
+    Ok(singular.iter().filter(|value| **value <= PASSES * singular[0].max(anywhere)).count())
 }
 
 /// Combinations of the motions that vanish at the held dofs; rows weighted by stiffness, so that rotations and
@@ -101,6 +103,9 @@ fn passing(q: MatRef<'_, f64>, held: &[usize], stiffness: &[f64]) -> Result<Mat<
     let at_held =
         Mat::from_fn(held.len().max(n_r), n_r, |i, j| held.get(i).map_or(0.0, |dof| q[(*dof, j)] * weight(*dof)));
     let (singular, v) = dense::right_singular(at_held.as_ref())?;
-    let rank = singular.iter().filter(|value| **value > PASSES * singular[0]).count();
+    // The root mean square of the largest motion, with which to compare where all of them pass.
+    let squares = |j: usize| (0..q.nrows()).map(|dof| (q[(dof, j)] * weight(dof)).powi(2)).sum::<f64>();
+    let anywhere = ((0..n_r).map(squares).fold(0.0, f64::max) / q.nrows() as f64).sqrt();
+    let rank = singular.iter().filter(|value| **value > PASSES * singular[0].max(anywhere)).count();
     Ok(v.as_ref().subcols(rank, n_r - rank).to_owned())
 }

@@ -469,4 +469,12 @@ pub const CATALOGUE: &[Entry] = &[
         "Look at what is named, and at M-23 and M-25: a column of the basis may depend on the others. A superelement that has no answer here \
          has none in a simulation.",
     ),
+    line(
+        "M-34",
+        Proof::Measured,
+        Recorded::WithAccepted(AccuracyMeasure::InternalLoad),
+        "The largest error of the internal loads under a harmonic force on an interface dof, over the band, in the norm of the strain \
+         energy, against what the scene accepts. There is no margin.",
+        "As for M-29.",
+    ),
 ];

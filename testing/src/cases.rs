@@ -2,7 +2,7 @@
 
 use supel::dofs::Direction;
 use supel::job::{Coupling, InterfaceJob, NodeSelection, Origin, Weights};
-use supel_models::transform::{carrying, join, supported};
+use supel_models::transform::{carrying, join, supported, translated};
 use supel_models::{Inertia, Material, Model, Section, brick, frame, membrane};
 
 use crate::chain::{Chain, Method, Twin, direct, reduce, rigid_group, rows};
@@ -35,6 +35,7 @@ pub fn cases() -> Vec<Case> {
         case("free membrane", sheet(), vec![direct("corners", &[1, 20])], 3),
         case("two bodies", two_bodies, pins(), 12),
         case("two bodies that carry one device", one_device, pins(), 12),
+        case("two bodies on a hinge", hinged(), hinged_pins().to_vec(), 7),
         case("held solid", supported(&solid(), |(label, _)| label % 5 == 1), vec![rigid_group("XMAX")], 0),
         case("pendulum", pendulum(), vec![direct("tip", &[6])], 1),
         case("free solid, average and patch", broad(), vec![weighted(&broad(), "XMAX"), rigid_group("XMIN")], 6),
@@ -67,8 +68,40 @@ pub fn for_each_method(check: impl Fn(&Case, &Chain, &Twin)) {
 }
 
 /// Unequal sides keep the natural frequencies apart.
-fn solid() -> Model {
+pub fn solid() -> Model {
     brick([4, 2, 2], [4.0, 1.2, 0.7], &Material::UNIT)
+}
+
+/// A model with a spring along the line between two of its nodes.
+pub fn tied(mut model: Model, labels: [i64; 2], stiffness: f64) -> Model {
+    let at = |label: i64| model.labels.iter().position(|other| *other == label).expect("a node");
+    let [a, b] = labels.map(|label| model.nodes[at(label)]);
+    let length = (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt();
+    let row = |label: i64, axis: u8| model.dofs.iter().position(|dof| *dof == (label, axis)).expect("a dof") as u32;
+    let ends: Vec<(u32, f64)> = [(labels[0], -1.0), (labels[1], 1.0)]
+        .into_iter()
+        .flat_map(|(label, sign)| (0..3u8).map(move |axis| (label, axis, sign)))
+        .map(|(label, axis, sign)| (row(label, axis), sign * (b[axis as usize] - a[axis as usize]) / length))
+        .collect();
+    let spring = ends.iter().flat_map(|&(i, x)| ends.iter().map(move |&(j, y)| (i, j, stiffness * x * y)));
+    for (i, j, value) in spring.filter(|(_, _, value)| *value != 0.0).collect::<Vec<_>>() {
+        match model.stiffness.iter_mut().find(|entry| (entry.0, entry.1) == (i, j)) {
+            Some(entry) => entry.2 += value,
+            None => model.stiffness.push((i, j, value)),
+        }
+    }
+    model
+}
+
+/// Interfaces on both bodies of [`hinged`].
+pub fn hinged_pins() -> [InterfaceJob; 2] {
+    [direct("here", &[1, 2, 4, 7]), direct("there", &[15, 18, 21])]
+}
+
+/// Two beams that share the edge x = 2, y = 1: a hinge about z. The first has the labels 1 to 12.
+pub fn hinged() -> Model {
+    let beam = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
+    join(&beam, &translated(&beam, [2.0, 1.0, 0.0]), &[(6, 1), (12, 7)])
 }
 
 /// Its ends have more nodes than a group that is divided no further.

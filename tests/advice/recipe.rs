@@ -115,7 +115,7 @@ fn calculix() {
         return;
     }
     let text = recipe("calculix");
-    let [step, ccx] = &foreign(&text)[..] else { panic!("{text}") };
+    let [step, ccx, step_of_modes, ccx_of_modes] = &foreign(&text)[..] else { panic!("{text}") };
     let place = Place::new();
     let cells = [4usize, 2, 2];
     let model = brick(cells, [0.1, 0.03, 0.02], &Material::STEEL_SI);
@@ -130,14 +130,18 @@ fn calculix() {
     }
     deck +=
         "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e9, 0.3\n*DENSITY\n7850\n*SOLID SECTION, ELSET=SOLID, MATERIAL=STEEL\n";
-    place.write("part.inp", (deck + step).as_bytes());
-    // It may end with 201.
-    let ended = Command::new("sh").args(["-c", ccx]).current_dir(place.path("")).output().expect("a shell");
-    assert!(place.path("part.sti").exists(), "{}", String::from_utf8_lossy(&ended.stdout));
-    for command in commands(&text) {
-        let told = own(&place, &command, ExitCode::Done);
-        assert!(told.contains("six free") && told.contains("45 nodes"), "{told}");
+    place.write("part.inp", (deck.clone() + step).as_bytes());
+    place.write("modes.inp", (deck + step_of_modes).as_bytes());
+    for (ccx, written) in [(ccx, "part.sti"), (ccx_of_modes, "modes.frd")] {
+        // It may end with 201.
+        let ended = Command::new("sh").args(["-c", ccx]).current_dir(place.path("")).output().expect("a shell");
+        assert!(place.path(written).exists(), "{}", String::from_utf8_lossy(&ended.stdout));
     }
+    let [doctor, certify] = &commands(&text)[..] else { panic!("{text}") };
+    let told = own(&place, doctor, ExitCode::Done);
+    assert!(told.contains("six free") && told.contains("45 nodes"), "{told}");
+    let told = own(&place, certify, ExitCode::Done);
+    assert!(told.contains("10 shapes") && told.contains("written by CalculiX"), "{told}");
 }
 
 /// The corners of the cells of a block, by their places.

@@ -1,8 +1,10 @@
 //! Two parts of a model, reduced, joined and solved, against the model in one piece.
 
-use supel::assembly::{Assembly, Omitted, PointMass, Wanted};
+use supel::assembly::{Assembly, AssemblyModes, Component, Omitted, PointMass, Wanted};
+use supel::cli::ExitCode;
 use supel_models::transform::{join, supported, translated};
 use supel_models::{Material, Model, brick, spectrum};
+use supel_testing::place::{Place, supel};
 
 use crate::{all_modes, assert_enclosed, beams, line, loaded, n_rigid, reduced};
 
@@ -22,12 +24,13 @@ fn joined(method: &str) -> Assembly {
     assembly
 }
 
-const METHODS: [&str; 5] = [
+const METHODS: [&str; 6] = [
     "--method craig-bampton --modes 6",
     "--method craig-bampton --up-to-hz 2000 --inertia-relief",
     "--method herting --modes 6",
     "--method herting --up-to-hz 1500",
     "--method rubin --modes 5",
+    "--method mixed-interface --held middle --modes 6",
 ];
 
 #[test]
@@ -216,4 +219,48 @@ fn nothing_is_bounded_where_nothing_is_left_out() {
         assert!(width <= 2.0 * mode.rounding_hz && !mode.is_beyond_band, "{mode:?}");
     }
     assert_enclosed(&modes, &spectrum(&beams(&line())));
+}
+
+/// Mean motions are joined as rigid patches are, and stay free to deform: with all modes kept the assembly is exact, and with few of them it
+/// encloses that. It is softer than with rigid patches.
+#[test]
+fn averages_are_joined_by_six_dofs() {
+    let left = brick([2, 2, 2], [2.0, 1.2, 0.7], &Material::UNIT);
+    let right = translated(&brick([3, 2, 2], [2.5, 1.2, 0.7], &Material::UNIT), [2.0, 0.0, 0.0]);
+    let assembled = |coupling: &str, reduction: &str| {
+        let component = |name: &str, model: &Model| {
+            let place = Place::with(model);
+            let nodes = model.labels.iter().zip(&model.nodes).filter(|(_, node)| (node[0] - 2.0).abs() < 1e-9);
+            let labels: Vec<i64> = nodes.map(|(label, _)| *label).collect();
+            let job = format!(
+                "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+                 interface = [{{ name = \"face\", coupling = \"{coupling}\", nodes = {labels:?} }}]\n\
+                 reduction = {{ {reduction} }}\nwrite = {{ superelement = \"x.supel\" }}\n"
+            );
+            place.write("job.toml", job.as_bytes());
+            supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+            Component::new(name.to_owned(), place.superelement("x.supel")).expect("a component")
+        };
+        let mut assembly =
+            Assembly::new(vec![component("left", &left), component("right", &right)]).expect("two names");
+        assembly.join("left.face", "right.face").expect("one place");
+        assert_eq!((assembly.joints[0].n_nodes, assembly.joints[0].n_dofs), (1, 6));
+        all_modes(&assembly)
+    };
+    let all = r#"method = "craig-bampton", modes = { up_to_hz = 1e3 }"#;
+    let exact = assembled("average", all);
+    let square = |modes: &AssemblyModes| -> Vec<f64> {
+        modes.modes.iter().map(|mode| (std::f64::consts::TAU * mode.frequency_hz).powi(2)).collect()
+    };
+    let (whole, rigid) = (square(&exact), square(&assembled("rigid", all)));
+    assert!(whole[6..12].iter().zip(&rigid[6..12]).all(|(average, rigid)| average < rigid), "{whole:?}\n{rigid:?}");
+    for reduction in [
+        r#"method = "craig-bampton", modes = { count = 8 }"#,
+        r#"method = "herting", modes = { count = 8 }"#,
+        r#"method = "mixed-interface", held = ["face"], modes = { count = 8 }"#,
+    ] {
+        let few = assembled("average", reduction);
+        assert_eq!(n_rigid(&few), 6, "{reduction}");
+        assert_enclosed(&few, &whole);
+    }
 }

@@ -99,6 +99,20 @@ fn a_folder_is_reduced_and_what_is_up_to_date_is_not_again() {
     assert!(quiet.err.contains("below/broken: error[E-READ]"), "{}", quiet.err);
 }
 
+/// A link that leads nowhere, or to itself, stands where a job was meant to be.
+#[cfg(unix)]
+#[test]
+fn a_link_to_no_document_is_a_job_that_fails() {
+    let place = halves("m-kg-s");
+    std::os::unix::fs::symlink("gone.toml", place.path("lost.toml")).expect("a link");
+    std::os::unix::fs::symlink("self.toml", place.path("self.toml")).expect("a link");
+    let ended = reduce_all(&place, "", &["--json"]).expect(ExitCode::Io);
+    let document = answered(&ended);
+    let found = outcomes(&document);
+    let failed = ["lost", "self"].map(|name| [name, "failed", "E-READ"]);
+    assert_eq!(found, [["left", "reduced", ""], failed[0], ["right", "reduced", ""], failed[1]]);
+}
+
 /// By the program, which runs both at the same time, each in a process of its own.
 #[test]
 fn side_by_side_each_has_the_bytes_that_it_has_alone() {
@@ -133,6 +147,8 @@ fn interfaces_that_an_assembly_joins_are_compared() {
     assert_ne!(apart.code, ExitCode::Done);
     let text = reduce_all(&place, "turned.toml", &[]);
     assert!(text.out.contains("joined interfaces do not fit: 1 pair"), "{}", text.out);
+    let reason = document["joins"][0]["error"]["message"].as_str().expect("a message");
+    assert!(text.err.contains("error[E-JOIN-POSITION]") && text.err.contains(reason), "{}", text.err);
 
     let place = halves("mm-t-s");
     place.write("assembly.toml", ASSEMBLY.as_bytes());

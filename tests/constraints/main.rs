@@ -1,5 +1,6 @@
 //! Multipoint constraints: the null space of G by dense algebra, rigid elements, ties between meshes, and what is refused.
 
+mod limits;
 mod model;
 mod refused;
 mod theory;

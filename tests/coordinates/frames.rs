@@ -146,8 +146,8 @@ fn supports_of_any_stiffness_are_no_local_frames() {
     ] {
         let largest = sound.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2));
         let displacements: Vec<usize> = (0..sound.n).filter(|row| sound.dofs[*row].1 < 3).collect();
-        for exponent in [-11, -8, -5, -2, 0, 2, 6, 10] {
-            for n_springs in [1, 2, 3, 7] {
+        for exponent in [-11, -5, -2, 0, 10] {
+            for n_springs in [1, 3, 7] {
                 let mut held = sound.clone();
                 for _ in 0..n_springs {
                     let row = displacements[random.below(displacements.len() as u64) as usize];

@@ -136,9 +136,25 @@ fn of_a_part_far_from_the_origin() {
                 let (codes, warnings) = ended(&place, &flags(coupling, "first=1,6,11,16 second=5,10,15,20", method));
                 let at = format!("{distance:e}, {coupling}, {method}");
                 assert!(codes == [ExitCode::Done; 3] && warnings.is_empty(), "{at}: {codes:?} {warnings:?}");
+                assert_inertia_is_known_to_what_levers_leave(&place, distance);
             }
         }
     }
+}
+
+/// Another program, or another order of sums, states an inertia that differs in the digits which the levers of a far origin take.
+#[track_caller]
+fn assert_inertia_is_known_to_what_levers_leave(place: &Place, distance: f64) {
+    let file = place.superelement("x.supel");
+    let (tensors, mut metadata) = (file.tensors().clone(), file.metadata().clone());
+    let stated = metadata.model.mass_properties.as_mut().expect("mass properties");
+    // The part is some units long: ε of the lever's square.
+    stated.inertia[0][0] *= 1.0 + f64::EPSILON * distance * distance;
+    supel_runtime::Superelement::new(tensors, metadata)
+        .expect("sound")
+        .write(&place.path("other.supel"))
+        .expect("written");
+    supel(&["verify", &place.text("other.supel"), "--job", &place.text("job.json"), "--quiet"]).expect(ExitCode::Done);
 }
 
 /// A patch of all nodes makes the part rigid, whatever its inertia: that is said, and no dof of it blamed.

@@ -59,14 +59,14 @@ pub(crate) fn matrix_market(n: usize, entries: &[Entry], print: &dyn Fn(f64) -> 
     text
 }
 
-/// The frequencies of a model by the texts of its two matrices, and what was said of it.
-fn found(held: &Held, model: &Model, texts: [&str; 2]) -> (Found, String) {
-    let (place, out) = reduced(held, model, texts, "");
-    (Found::of(&place.report("x.report.json")["body"]), out)
+/// Reduces and verifies a model by the texts of its two matrices, with more keys of `model`; the folder, and what was said.
+pub(crate) fn verified(held: &Held, model: &Model, texts: [&str; 2], keys: &str) -> (Place, String) {
+    let (place, out) = reduced(held, model, texts, keys);
+    supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
+    (place, out)
 }
 
-/// Reduces and verifies a model by the texts of its two matrices, with more keys of `model`; the folder, and what was said.
-pub(crate) fn reduced(held: &Held, model: &Model, [stiffness, mass]: [&str; 2], keys: &str) -> (Place, String) {
+fn reduced(held: &Held, model: &Model, [stiffness, mass]: [&str; 2], keys: &str) -> (Place, String) {
     let place = Place::with(model);
     place.write("K.mtx", stiffness.as_bytes());
     place.write("M.mtx", mass.as_bytes());
@@ -80,7 +80,6 @@ pub(crate) fn reduced(held: &Held, model: &Model, [stiffness, mass]: [&str; 2], 
     );
     place.write("job.toml", text.as_bytes());
     let ended = supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
-    supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
     (place, ended.out)
 }
 
@@ -103,11 +102,12 @@ pub(crate) fn hold(sizes: [f64; 2], texts: Texts<'_>, said: &str) {
         for sample in 0..SAMPLES {
             let factor = 1.0 + 2.0 * (0.618_033_988_749_895 * (sample as f64 + 0.5)).fract();
             let model = scaled(&held.model, units[0] * factor, units[1] * factor);
-            let of = |texts: [String; 2]| found(&held, &model, texts.each_ref().map(String::as_str));
-            let (exact, _) = of(printed(&model, [&full, &full]));
-            let (rounded, out) = of(texts(&model));
+            let found = |place: &Place| Found::of(&place.report("x.report.json")["body"]);
+            let exact = printed(&model, [&full, &full]);
+            let (exact, _) = reduced(&held, &model, exact.each_ref().map(String::as_str), "");
+            let (rounded, out) = verified(&held, &model, texts(&model).each_ref().map(String::as_str), "");
             assert!(out.contains(said), "{}: {out}", held.name);
-            let off = rounded.worst(&exact);
+            let off = found(&rounded).worst(&found(&exact));
             if std::env::var_os("SHOW").is_some() {
                 println!("{said}, {}: {off:.1e} of a bar", held.name);
             }

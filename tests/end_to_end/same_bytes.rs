@@ -1,7 +1,7 @@
 //! Same input, same bytes: whatever the threads, the folder, the memory, the day, and what else the process does.
 
 use supel::cli::ExitCode;
-use supel_models::{Ends, Material, brick, spring};
+use supel_models::{Assembler, Ends, Material, Model, brick, spring};
 use supel_testing::chain::certified::eigensolver_words;
 
 use crate::place::{Place, frequencies_hz, supel};
@@ -87,6 +87,123 @@ fn pairs_of_modes_do_not_depend_on_threads_nor_on_the_run() {
                 assert_same(&again, &first, &format!("{flags} {threads}"));
             }
         }
+    }
+}
+
+/// Every other method, Rubin's on an interface that holds nothing, and modes of a file.
+#[test]
+fn f_10_methods_do_not_depend_on_threads() {
+    let model = brick([16, 4, 4], [6.0, 1.0, 0.8], &Material::STEEL_SI);
+    let place = Place::with(&model);
+    let wave = |k: usize| (0..model.n).map(|row| (0.01 * (k + 1) as f64 * (row * row % 977) as f64).sin()).collect();
+    let columns: Vec<Vec<f64>> = (0..6).map(wave).collect();
+    let mut text = format!("%%MatrixMarket matrix array real general\n{} {}\n", model.n, columns.len());
+    columns.iter().flatten().for_each(|value| text += &format!("{value:.17e}\n"));
+    place.write("V.mtx", text.as_bytes());
+    let of_file = format!("{HELD_ENDS} --method mode-acceleration --modes-from {}", place.text("V.mtx"));
+    for flags in [
+        format!("{HELD_ENDS} --method rubin --modes 8"),
+        "--interface pin=1 --method rubin --modes 4".to_owned(),
+        format!("{HELD_ENDS} --method macneal --modes 8"),
+        format!("{HELD_ENDS} --method guyan --inertia-relief"),
+        of_file,
+    ] {
+        let written = |threads: &str| {
+            place.reduce(&place.model_flags(), &format!("{flags} --threads {threads}")).expect(ExitCode::Done);
+            (place.bytes("x.supel"), place.report_body("x.report.json"))
+        };
+        let first = written("1");
+        for threads in &THREADS[1..] {
+            assert_same(&written(threads), &first, &format!("{flags} with {threads} threads"));
+        }
+    }
+}
+
+/// Corners of the two ends of the brick of 16 × 4 × 4.
+const HELD_ENDS: &str = "--interface root=1,69,341,409 --interface tip=17,85,357,425";
+
+/// A job with loads, further matrices, damping, held dofs, a mean motion and multipoint constraints.
+#[test]
+fn f_10_a_job_with_everything_does_not_depend_on_threads() {
+    let model = brick([10, 3, 3], [4.0, 1.0, 0.8], &Material::STEEL_SI);
+    let place = Place::with(&model);
+    let n = model.n;
+    // Node 50 stays in the middle between its neighbours along the brick.
+    let mut text = format!("%%MatrixMarket matrix coordinate real general\n3 {n} 9\n");
+    for direction in 1..4 {
+        for (node, factor) in [(50, 1.0), (49, -0.5), (51, -0.5)] {
+            text += &format!("{direction} {} {factor}\n", 3 * (node - 1) + direction);
+        }
+    }
+    place.write("G.mtx", text.as_bytes());
+    let skew = model.stiffness.iter().filter(|(i, j, _)| i > j);
+    let skew: Vec<String> = skew.map(|(i, j, value)| format!("{} {} {:e}\n", i + 1, j + 1, 1e-6 * value)).collect();
+    let banner = "%%MatrixMarket matrix coordinate real skew-symmetric";
+    place.write("S.mtx", format!("{banner}\n{n} {n} {}\n{}", skew.len(), skew.concat()).as_bytes());
+    let job = r#"
+interface = [{ name = "tip", coupling = "average", nodes = { within = { box = { min = [3.99, 0, 0], max = [9, 9, 9] } } } },
+    { name = "side", nodes = [6, 17] }]
+fixed  = [{ nodes = [1, 12, 23] }]
+load   = [{ name = "pull", nodes = [60, 70], force = [1, 2, 3] }, { name = "spin", rotation = { axis = [0, 0, 1] } }]
+matrix = [{ name = "spin", kind = "gyroscopic", file = "S.mtx" }]
+damping = { modal = { ratio = 0.01 }, rigid_motion = "resist" }
+reduction = { method = "herting", modes = { count = 6 } }
+[model]
+stiffness = "K.mtx"
+mass      = "M.mtx"
+dofs      = "dofs.txt"
+nodes     = "nodes.csv"
+constraints = "G.mtx"
+[write]
+superelement = "x.supel"
+recovery = { nodes = [60, 70] }
+"#;
+    place.write("job.toml", job.as_bytes());
+    assert_job_does_not_depend_on_threads(&place);
+}
+
+/// A string of points under tension.
+#[test]
+fn f_10_a_preloaded_component_does_not_depend_on_threads() {
+    let n_points = 150;
+    let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
+    for point in 1..n_points {
+        for (axis, k) in [1e3, 1e2, 1e2].into_iter().enumerate() {
+            let [a, b] = [3 * (point - 1) + axis as u32, 3 * point + axis as u32];
+            [(a, a, k), (b, b, k), (a, b, -k)].into_iter().for_each(|(i, j, k)| stiffness.add(i, j, k));
+        }
+    }
+    (0..3 * n_points).for_each(|row| mass.add(row, row, 1.0));
+    let nodes = (0..n_points).map(|i| [f64::from(i), 0.0, 0.0]).collect();
+    let place = Place::with(&Model::node_major(nodes, &[0, 1, 2], stiffness, mass));
+    // The ends are pulled towards each other by what their springs take up.
+    let forces = (0..3 * n_points).map(|row| match row {
+        0 => -1e2,
+        row if row == 3 * n_points - 3 => 1e2,
+        _ => 0.0,
+    });
+    let values: Vec<String> = forces.map(|force| format!("{force:e}\n")).collect();
+    let head = format!("%%MatrixMarket matrix array real general\n{} 1\n", values.len());
+    place.write("q.mtx", (head + &values.concat()).as_bytes());
+    let job = r#"
+model     = { stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv", state = "preloaded", internal_forces = "q.mtx" }
+interface = [{ name = "ends", nodes = [1, 150] }]
+reduction = { method = "herting", modes = { count = 8 } }
+write     = { superelement = "x.supel" }
+"#;
+    place.write("job.toml", job.as_bytes());
+    assert_job_does_not_depend_on_threads(&place);
+}
+
+#[track_caller]
+fn assert_job_does_not_depend_on_threads(place: &Place) {
+    let written = |threads: &str| {
+        supel(&["reduce", &place.text("job.toml"), "--threads", threads]).expect(ExitCode::Done);
+        (place.bytes("x.supel"), place.report_body("x.report.json"))
+    };
+    let first = written("1");
+    for threads in &THREADS[1..] {
+        assert_same(&written(threads), &first, &format!("{threads} threads"));
     }
 }
 

@@ -117,6 +117,50 @@ fn other_methods_are_reduced_again() {
     assert_same_spectrum(&place.superelement("x.supel"), &second);
 }
 
+/// Statics alone, the mean motion of a patch, and a model of multipoint constraints: what was condensed, averaged or tied is none of that any
+/// more, and the matrices of the interface stay what they are.
+#[test]
+fn condensed_averaged_and_tied_models_are_reduced_again() {
+    let herting = "method = \"herting\", modes = { count = 4 }";
+    for (what, constraints, coupling, reduction) in [
+        ("statics", "", "rigid", "method = \"guyan\""),
+        ("a mean motion", "", "average", herting),
+        ("constraints", ", constraints = \"G.mtx\"", "rigid", herting),
+        ("constraints in statics", ", constraints = \"G.mtx\"", "average", "method = \"guyan\""),
+    ] {
+        let place = Place::with_brick();
+        // Node 23 stays in the middle between its neighbours along the brick.
+        let terms = (1..4).flat_map(|direction| {
+            [(23, 1.0), (22, -0.5), (24, -0.5)].map(|(node, factor)| (direction, 3 * (node - 1) + direction, factor))
+        });
+        let terms: Vec<String> = terms.map(|(row, column, factor)| format!("{row} {column} {factor}\n")).collect();
+        let head = "%%MatrixMarket matrix coordinate real general\n3 135 9\n";
+        place.write("G.mtx", (head.to_owned() + &terms.concat()).as_bytes());
+        let job = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\"{constraints} }}\n\
+             interface = [{{ name = \"foot\", nodes = [1, 11, 31] }}, {{ name = \"hub\", nodes = [5, 10, 15, 20, 25], \
+             coupling = \"{coupling}\" }}]\nreduction = {{ {reduction} }}\nwrite = {{ superelement = \"x.supel\" }}\n"
+        );
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+        let first = place.superelement("x.supel");
+        let (second, report) = again(&place);
+        assert_same_spectrum(&first, &second);
+        assert_eq!(second.n_coordinates(), first.n_coordinates(), "{what}");
+        assert_eq!((first.n_rigid(), second.n_rigid()), (6, 6), "{what}");
+        assert_eq!(report["body"]["model"]["n_bodies"], 1, "{what}");
+        let (found, expected) = (second.tensors(), first.tensors());
+        let n_b = first.n_interface();
+        for (i, j) in (0..n_b).flat_map(|i| (0..n_b).map(move |j| (i, j))) {
+            for (found, expected) in [(&found.stiffness, &expected.stiffness), (&found.mass, &expected.mass)] {
+                let size = (expected[(i, i)] * expected[(j, j)]).sqrt();
+                // K̂ has no coupling of interface and amplitudes; what it lacks of K̂Û = 0 is 10⁻¹² of its terms.
+                assert!((found[(i, j)] - expected[(i, j)]).abs() <= 1e-11 * size, "{what}: ({i}, {j})");
+            }
+        }
+    }
+}
+
 /// Without nodes the motions without energy come from the matrices. Without an interface there is nothing to reduce to.
 #[test]
 fn interfaces_of_rows_are_reduced_again() {

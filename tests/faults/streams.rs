@@ -86,6 +86,38 @@ fn a_file_that_may_not_grow_is_an_error() {
     assert!(names.flatten().all(|entry| !entry.file_name().to_string_lossy().ends_with(".part")));
 }
 
+/// Ended by a signal at any time, a run leaves its whole file or none.
+#[test]
+fn f_06_an_interrupted_run_leaves_nothing() {
+    let place = Place::with(&spring(4000, Ends::Free));
+    let mut args = vec!["reduce".to_owned(), "--quiet".to_owned(), "--output".to_owned(), place.text("x.supel")];
+    args.extend(place.matrix_flags());
+    args.extend("--interface ends=rows:0,3999 --method herting --modes 4".split(' ').map(str::to_owned));
+    let mut n_ended = 0;
+    for (signal, wait) in ["-INT", "-TERM"].iter().flat_map(|signal| [0, 10, 30, 90, 270].map(|wait| (signal, wait))) {
+        for name in ["x.supel", "x.report.json"] {
+            let _ = std::fs::remove_file(place.path(name));
+        }
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("supel"));
+        let mut child = command.args(&args).stderr(Stdio::null()).spawn().expect("started");
+        std::thread::sleep(std::time::Duration::from_millis(wait));
+        // A run that has ended takes no signal any more.
+        let _ = Command::new("kill").arg(signal).arg(child.id().to_string()).stderr(Stdio::null()).status();
+        let ended = child.wait().expect("ended");
+        n_ended += usize::from(ended.code().is_none());
+        assert!([None, Some(0)].contains(&ended.code()), "{signal} after {wait} ms: {ended}");
+        assert!(ended.code().is_none() || place.path("x.supel").exists());
+        if place.path("x.supel").exists() {
+            place.superelement("x.supel");
+        }
+        let names: Vec<_> =
+            std::fs::read_dir(place.path("")).expect("a folder").flatten().map(|e| e.file_name()).collect();
+        let is_left = names.iter().any(|name| name.to_string_lossy().contains(".part"));
+        assert!(!is_left, "{signal} after {wait} ms: {names:?}");
+    }
+    assert!(n_ended >= 2, "{n_ended} of ten runs were ended by the signal");
+}
+
 /// The child that reads HDF5 first ends when the other end of its stdin is closed, which the end of its parent does in any case.
 #[cfg(feature = "hdf5")]
 #[test]

@@ -74,6 +74,70 @@ fn matrices_are_projected_with_their_skew_parts() {
     }
 }
 
+/// What a job asks of `reduction`, and the interfaces it has: every method, Rubin's where the interface holds nothing.
+fn by_every_method() -> [(&'static str, &'static str); 8] {
+    const PIN: &str = r#"{ name = "pin", nodes = [1] }"#;
+    [
+        (FOOT_AND_HUB, CRAIG_BAMPTON),
+        (FOOT_AND_HUB, HERTING),
+        (FOOT_AND_HUB, r#"method = "rubin", modes = { count = 5 }"#),
+        (FOOT_AND_HUB, r#"method = "macneal", modes = { count = 5 }"#),
+        (FOOT_AND_HUB, r#"method = "guyan""#),
+        (FOOT_AND_HUB, r#"method = "mixed-interface", held = ["hub"], modes = { count = 5 }"#),
+        (FOOT_AND_HUB, r#"method = "mode-acceleration", modes = { file = "V.mtx" }"#),
+        (PIN, r#"method = "rubin", modes = { count = 5 }"#),
+    ]
+}
+
+/// Asserts that the file has WᵀAW of every matrix, and of a skew one nothing but the skew part.
+#[track_caller]
+fn assert_all_projected(case: &Case, all: &[Entries; 5], what: &str) {
+    let file = case.place.superelement("x.supel");
+    let found: Vec<_> = file.further_matrices().collect();
+    assert!(found.iter().map(|(named, _)| named.kind).eq(MatrixKind::ALL), "{what}");
+    for ((_, matrix), entries) in found.iter().zip(all) {
+        assert_entries(&unpacked(matrix), &projected(&file, &dense(case.model.n, entries)), 1e-12);
+    }
+    let spin = found[1].1;
+    assert!((0..spin.rows()).all(|i| (0..spin.cols()).all(|j| spin[(i, j)] == -spin[(j, i)])), "{what}");
+}
+
+/// Damping, gyroscopic and further matrices by every method, and through multipoint constraints. A gyroscopic matrix that is not skew is
+/// refused.
+#[test]
+fn i_21_further_matrices_by_every_method() {
+    let (case, all) = case();
+    let n = case.model.n;
+    let waves = (1..9).map(|k| (0..n).map(|row| (0.1 * f64::from(k) * (row + 1) as f64).sin()).collect());
+    let columns: Vec<Vec<f64>> = waves.collect();
+    let mut text = format!("%%MatrixMarket matrix array real general\n{n} {}\n", columns.len());
+    columns.iter().flatten().for_each(|value| text += &format!("{value:.17e}\n"));
+    case.place.write("V.mtx", text.as_bytes());
+    // Node 23 stays in the middle between its neighbours along the brick, which lets rigid-body motion pass.
+    let mut text = format!("%%MatrixMarket matrix coordinate real general\n3 {n} 9\n");
+    for direction in 1..4 {
+        for (node, factor) in [(23, 1.0), (22, -0.5), (24, -0.5)] {
+            text += &format!("{direction} {} {factor}\n", 3 * (node - 1) + direction);
+        }
+    }
+    case.place.write("G.u.mtx", text.as_bytes());
+    let more = format!("damping = {{ rigid_motion = \"resist\" }}\n{MATRICES}");
+    for (interfaces, reduction) in by_every_method() {
+        case.reduced(interfaces, reduction, &more);
+        assert_all_projected(&case, &all, reduction);
+        let job = String::from_utf8(case.place.bytes("job.toml")).expect("UTF-8");
+        let tied = job.replace("nodes.csv\" }", "nodes.csv\", constraints = \"G.u.mtx\" }");
+        assert!(tied != job);
+        case.place.write("job.toml", tied.as_bytes());
+        supel(&["reduce", &case.place.text("job.toml"), "--quiet"]).expect(ExitCode::Done);
+        assert_all_projected(&case, &all, &format!("{reduction}, tied"));
+        case.verify_with_job().expect(ExitCode::Done);
+    }
+    let symmetric = more.replace("file = \"G.mtx\"", "file = \"S.mtx\"");
+    let refused = case.run(FOOT_AND_HUB, CRAIG_BAMPTON, &symmetric).expect(ExitCode::InputData).err;
+    assert!(refused.contains("E-MATRIX-KIND") && refused.contains("spin"), "{refused}");
+}
+
 #[test]
 fn matrices_leave_by_export() {
     let (case, _) = case();

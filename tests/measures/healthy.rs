@@ -35,7 +35,8 @@ fn assert_healthy(name: &str, model: &Model, interfaces: &[InterfaceJob], count:
 
 #[test]
 fn models_of_the_theorems_pass() {
-    for case in cases() {
+    // Mechanisms are found by a stage that this chain lacks; the stress catalogue measures them.
+    for case in cases().into_iter().filter(|case| !case.name.contains("hinge")) {
         // Without rotary inertia there are more reduced coordinates than masses: M̂ is singular.
         let true_warning: &[&str] = if case.name.contains("massless") { &["M-23"] } else { &[] };
         assert_warns_only(case.name, &case.model, &case.interfaces, N_MODES, true_warning);

@@ -41,7 +41,7 @@ fn unsymmetric_stiffness() {
     assert_says(
         &error,
         ErrorClass::InputData,
-        &["stiffness", "row 5 (node 2 uy), column 2 (node 1 uy)", "1.0e-3", "leave out"],
+        &["stiffness", "row 5 (node 2 uy), column 2 (node 1 uy)", "1.0e-3", "[[matrix]]"],
     );
 }
 

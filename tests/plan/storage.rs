@@ -1,4 +1,7 @@
-//! K-17: constraint modes that the factor makes again agree with those that are stored.
+//! What is stored and what is solved for. K-15: a load at the interface costs no solve. K-16: rows of recovery are those of the whole. K-17:
+//! constraint modes that the factor makes again agree with those that are stored.
+
+use supel_runtime::Coordinate;
 
 use crate::{CONDENSED, Case, HERTING, PATCH_AND_NODES, difference};
 
@@ -41,4 +44,44 @@ fn recovered_rows_do_not_need_stored_modes() {
     let largest =
         (0..a.rows()).flat_map(|i| (0..15).map(move |j| (i, j))).map(|at| (a[at] - b[at]).abs()).fold(0.0, f64::max);
     assert!(largest <= CONDENSED, "{largest:e}");
+}
+
+/// K-15: a load on interface nodes alone makes no solve and no coordinate. One inside makes one of each.
+#[test]
+fn k_15_a_load_at_the_interface_costs_no_solve() {
+    const AT_THE_INTERFACE: &str = "[[load]]\nname = \"pull\"\nnodes = [7, 28]\nforce = [1, 2, 3]\n";
+    const INSIDE: &str = "[[load]]\nname = \"pull\"\nnodes = [45]\nforce = [1, 2, 3]\n";
+    for method in METHODS {
+        let made = |rest| Case { rest, ..Case::new(PATCH_AND_NODES, method, "") }.made();
+        let (without, at_the_interface, inside) = (made(""), made(AT_THE_INTERFACE), made(INSIDE));
+        let n_vectors = |made: &crate::Made| {
+            let coordinates = made.file.metadata().coordinates.iter();
+            coordinates.filter(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })).count()
+        };
+        assert_eq!([&at_the_interface, &inside].map(n_vectors), [0, 1], "{method}");
+        let solves = [&without, &at_the_interface, &inside].map(|made| made.work("n_solves"));
+        assert!(solves[1] == solves[0] && solves[2] > solves[0], "{method}: {solves:?}");
+        let [found, expected] = [&at_the_interface, &without].map(|made| made.file.tensors());
+        let mut at = (0..without.n_b()).flat_map(|i| (0..without.n_b()).map(move |j| (i, j)));
+        assert!(at.all(|at| found.stiffness[at] == expected.stiffness[at]), "{method}");
+        assert_eq!(found.frequencies, expected.frequencies, "{method}");
+    }
+}
+
+/// K-16: rows of some nodes have every bit that they have among those of all.
+#[test]
+fn k_16_rows_of_some_nodes_are_those_of_the_whole() {
+    const ALL: &str = ", recovery = { nodes = { within = { box = { min = [-9, -9, -9], max = [9, 9, 9] } } } }";
+    const SOME: &str = ", recovery = { nodes = [18, 45, 1, 28] }";
+    for method in METHODS {
+        let made = |write| Case { write, ..Case::new(PATCH_AND_NODES, method, "") }.made();
+        let [all, some] = [made(ALL), made(SOME)];
+        let [all, some] = [&all, &some].map(|made| made.file.tensors().recovery.as_ref().expect("rows"));
+        assert_eq!((all.dofs().len(), some.dofs().len()), (252, 12), "{method}");
+        for (row, dof) in some.dofs().iter().enumerate() {
+            let of_all = all.dofs().iter().position(|other| other == dof).expect("a row");
+            let n = some.rows().cols();
+            assert!((0..n).all(|j| some.rows()[(row, j)] == all.rows()[(of_all, j)]), "{method}: {dof:?}");
+        }
+    }
 }

@@ -5,6 +5,7 @@ mod patches;
 mod refused;
 mod theory;
 mod told;
+mod unstable;
 
 use serde_json::Value;
 use supel::cli::ExitCode;

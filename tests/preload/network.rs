@@ -69,6 +69,25 @@ pub(crate) fn tied_tower(nodes: Nodes, strain: f64) -> Network {
     Network::of(tower_nodes(), nodes, springs)
 }
 
+/// The tower with a bolt between its fifth node and the last, of this tension over the stiffness of a spring.
+pub(crate) fn bolted_tower(nodes: Nodes, strain: f64, bolt: f64) -> Network {
+    let mut springs = tower(nodes, strain).springs;
+    springs.push(Spring { nodes: [4, 11], arms: [[0.0; 3]; 2], stiffness: STIFFNESS, tension: bolt * STIFFNESS });
+    Network::of(tower_nodes(), nodes, springs)
+}
+
+/// The tower without tension but for a strut through a point halfway between two nodes, the last node of the network: under
+/// compression that point has no stiffness of its own across the strut but a negative one.
+pub(crate) fn strutted_tower(compression: f64) -> Network {
+    let mut springs = tower(Nodes::Points, 0.0).springs;
+    let mut at = tower_nodes();
+    at.push(from_fn(|i| 0.5 * (at[8][i] + at[11][i])));
+    let strut =
+        |end| Spring { nodes: [end, 12], arms: [[0.0; 3]; 2], stiffness: STIFFNESS, tension: -compression * STIFFNESS };
+    springs.extend([8, 11].map(strut));
+    Network::of(at, Nodes::Points, springs)
+}
+
 fn tower_nodes() -> Vec<Vector> {
     let node = |i: usize| [(i % 2) as f64, 0.8 * (i / 2 % 2) as f64 + 0.1 * (i % 3) as f64, 0.9 * (i / 4) as f64];
     (0..12).map(node).collect()

@@ -4,7 +4,7 @@ use supel::cli::ExitCode;
 use supel_models::Model;
 use supel_testing::place::Ended;
 
-use crate::network::{Network, Nodes, tied_tower, tower};
+use crate::network::{Network, Nodes, bolted_tower, tied_tower, tower};
 use crate::{ENDS, PRELOADED, place_of, reduced};
 
 const STRAIN: f64 = 2e-3;
@@ -42,6 +42,24 @@ fn forces_of_another_state() {
         let ended = run(&network, &forces, (PRELOADED, ENDS));
         assert_says(&ended, ExitCode::InputData, &["E-PRELOAD-FORCES"]);
         assert!(["at node 5 u", "at node 12 u"].iter().any(|node| ended.err.contains(node)), "{}", ended.err);
+    }
+}
+
+/// The forces of a bolt far from a patch are hundreds of times those of the patch, whose arms turn with these: they are not excused by it.
+#[test]
+fn forces_of_a_patch_next_to_a_bolt() {
+    const PATCH: &str =
+        r#"{ name = "foot", nodes = [1, 2, 3, 4], coupling = "rigid" }, { name = "tip", nodes = [11, 12] }"#;
+    for nodes in [Nodes::Points, Nodes::Bodies] {
+        let [strained, slack] = [1.5e-4, 0.0].map(|strain| bolted_tower(nodes, strain, 0.5));
+        let sound = run(&strained, &strained.forces, (PRELOADED, PATCH));
+        assert_eq!(sound.code, ExitCode::Done, "{}{}", sound.out, sound.err);
+        let ended = run(&strained, &slack.forces, (PRELOADED, PATCH));
+        assert_says(&ended, ExitCode::InputData, &["E-PRELOAD-FORCES", "rotation about"]);
+        assert!((1..=4).any(|node| ended.err.contains(&format!("at node {node} "))), "{}", ended.err);
+        // Where nothing turns with a patch they are a hundredth of the largest.
+        let direct = run(&strained, &slack.forces, (PRELOADED, ENDS));
+        assert_eq!(direct.code, ExitCode::Done, "{}{}", direct.out, direct.err);
     }
 }
 

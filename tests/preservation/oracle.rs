@@ -1,7 +1,7 @@
 //! The full model computed densely: responses by complex elimination or by all its modes, without a line of the library.
 
 use faer::linalg::solvers::Solve;
-use faer::{Mat, MatRef, Side, c64};
+use faer::{Mat, Side, c64};
 use supel_models::Model;
 
 /// K and M of a model, dense, in the model's units.
@@ -27,7 +27,7 @@ impl Dense {
 
     /// H = [(K (1 + iη) − ω²M)⁻¹]_BB by elimination.
     pub(crate) fn response(&self, dofs: &[usize], frequency_hz: f64, eta: f64) -> Mat<c64> {
-        response(self.k.as_ref(), self.m.as_ref(), dofs, frequency_hz, eta)
+        response(self, dofs, frequency_hz, eta)
     }
 
     /// Rows and columns of these dofs.
@@ -55,26 +55,26 @@ impl Dense {
     }
 }
 
-/// The dofs' block of (K (1 + iη) − ω²M)⁻¹.
-pub(crate) fn response(
-    k: MatRef<'_, f64>,
-    m: MatRef<'_, f64>,
-    dofs: &[usize],
-    frequency_hz: f64,
-    eta: f64,
-) -> Mat<c64> {
+/// The dofs' columns of (K (1 + iη) − ω²M)⁻¹.
+pub(crate) fn answers(dense: &Dense, dofs: &[usize], frequency_hz: f64, eta: f64) -> Mat<c64> {
+    let (k, m) = (&dense.k, &dense.m);
     let omega = std::f64::consts::TAU * frequency_hz;
     let n = k.nrows();
     let a = Mat::from_fn(n, n, |i, j| c64::new(k[(i, j)] - omega * omega * m[(i, j)], eta * k[(i, j)]));
     let f = Mat::from_fn(n, dofs.len(), |i, j| c64::new(f64::from(u8::from(i == dofs[j])), 0.0));
-    let x = a.partial_piv_lu().solve(&f);
+    a.partial_piv_lu().solve(&f)
+}
+
+/// The dofs' block of (K (1 + iη) − ω²M)⁻¹.
+pub(crate) fn response(dense: &Dense, dofs: &[usize], frequency_hz: f64, eta: f64) -> Mat<c64> {
+    let x = answers(dense, dofs, frequency_hz, eta);
     Mat::from_fn(dofs.len(), dofs.len(), |i, j| x[(dofs[i], j)])
 }
 
 /// All modes of a pencil with definite mass.
 pub(crate) struct AllModes {
     pub(crate) lambda: Vec<f64>,
-    shapes: Mat<f64>,
+    pub(crate) shapes: Mat<f64>,
 }
 
 impl AllModes {

@@ -4,6 +4,7 @@ use supel::job::{Job, Method};
 use supel::modes::Retained;
 use supel::verification::Evidence;
 use supel::verification::preservation::Plan;
+use supel::verification::preservation::ResponseExtent::{AtInterfaces, NotCompared};
 
 use crate::chain::{direct, rigid_group};
 use crate::evidence::with_model;
@@ -36,7 +37,7 @@ fn plan_with(tip: &[i64], factor_entries: f64, modes: &str, scene: &str) -> Plan
 #[test]
 fn a_small_model_is_compared_whole() {
     let plan = plan(1e4, "up_to_hz = 3000", "");
-    assert_eq!((plan.supports.len(), plan.response, plan.band_hz), (5, true, Some([0.0, 2000.0])));
+    assert_eq!((plan.supports.len(), plan.response, plan.band_hz), (5, AtInterfaces, Some([0.0, 2000.0])));
     assert_eq!(plan.eta, 0.02);
     assert!(plan.not_compared.is_empty());
 }
@@ -45,7 +46,7 @@ fn a_small_model_is_compared_whole() {
 #[test]
 fn what_is_dearer_than_the_reduction_is_left_out_with_its_estimate() {
     let plan = plan(1e9, "up_to_hz = 3000", "");
-    assert!(plan.supports.is_empty() && plan.response);
+    assert!(plan.supports.is_empty() && plan.response == AtInterfaces);
     let [note] = plan.not_compared.as_slice() else { panic!("{:?}", plan.not_compared) };
     assert!(note.starts_with("frequencies under other boundaries: it would take an estimated "), "{note}");
     assert!(note.contains(" times the work of the reduction itself") && note.contains("[scene]"), "{note}");
@@ -61,26 +62,29 @@ fn away_from_the_end() -> Vec<i64> {
 fn the_response_of_a_large_interface_is_dearer_than_the_reduction() {
     let nodes = away_from_the_end();
     let plan = plan_with(&nodes, 1e9, "up_to_hz = 3000", "");
-    assert!(!plan.response);
+    assert_eq!(plan.response, NotCompared);
     assert!(plan.not_compared.iter().any(|note| note.starts_with("frequency response: it would take")));
-    assert!(plan_with(&nodes, 1e5, "up_to_hz = 3000", "").response, "half a second is never dear");
+    assert_eq!(plan_with(&nodes, 1e5, "up_to_hz = 3000", "").response, AtInterfaces, "half a second is never dear");
 }
 
 #[test]
 fn what_the_scene_states_is_compared_at_any_cost() {
     let both = "[scene]\nboundaries = [\"fix:tip\"]\nband_hz = [10, 20]\ndamping = { ratio = 0.005 }";
     let plan = plan(1e9, "up_to_hz = 3000", both);
-    assert_eq!((plan.supports.len(), plan.response, plan.band_hz, plan.eta), (1, true, Some([10.0, 20.0]), 0.01));
+    assert_eq!(
+        (plan.supports.len(), plan.response, plan.band_hz, plan.eta),
+        (1, AtInterfaces, Some([10.0, 20.0]), 0.01)
+    );
     assert!(plan.not_compared.is_empty());
 }
 
 #[test]
 fn without_modes_only_the_scene_knows_a_band() {
     let none = plan(1e4, "count = 0", "");
-    assert!(none.supports.is_empty() && !none.response && none.band_hz.is_none());
+    assert!(none.supports.is_empty() && none.response == NotCompared && none.band_hz.is_none());
     assert_eq!(none.not_compared.len(), 1);
     let stated = plan(1e4, "count = 0", "[scene]\nband_hz = [0, 50]");
-    assert_eq!((stated.supports.len(), stated.response), (5, true));
+    assert_eq!((stated.supports.len(), stated.response), (5, AtInterfaces));
 }
 
 /// What is accepted on has to be measured.
@@ -90,6 +94,6 @@ fn what_the_scene_accepts_is_compared_at_any_cost() {
     assert_eq!(frequency.supports.len(), 5);
     let nodes = away_from_the_end();
     let response = plan_with(&nodes, 1e9, "up_to_hz = 3000", "[scene]\naccept = { response_db = 1.0 }");
-    assert_eq!((response.supports.len(), response.response), (0, true));
+    assert_eq!((response.supports.len(), response.response), (0, AtInterfaces));
     assert!(plan(1e4, "up_to_hz = 3000", "[scene]\naccept = { static = 1e-6 }").shown > 1000);
 }

@@ -32,10 +32,14 @@ impl Files {
 
     /// The job with this method, these modes and this scene (lines of TOML).
     pub(crate) fn job(&self, method: &str, modes: &str, scene: &str) -> Job {
+        self.job_of(&format!("method = \"{method}\"\nmodes = {{ {modes} }}"), scene)
+    }
+
+    /// The job with this reduction and this scene, both as lines of TOML.
+    fn job_of(&self, reduction: &str, scene: &str) -> Job {
         let text = format!(
             "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n\
-             [reduction]\nmethod = \"{method}\"\nmodes = {{ {modes} }}\n\
-             [scene]\n{scene}\n[write]\nsuperelement = \"x.supel\"\n"
+             [reduction]\n{reduction}\n[scene]\n{scene}\n[write]\nsuperelement = \"x.supel\"\n"
         );
         let mut job = Job::parse(&text, "job.toml".as_ref()).expect("a job");
         job.interfaces.clone_from(&self.interfaces);
@@ -53,6 +57,11 @@ impl Files {
     pub(crate) fn reduce(&self, method: &str, modes: &str, scene: &str) -> Outcome {
         let job = self.job(method, modes, scene);
         supel::reduce(&job, Resources::default(), &mut ()).expect("reduced")
+    }
+
+    /// What a reduction makes, given as lines of TOML.
+    pub(crate) fn reduce_by(&self, reduction: &str, scene: &str) -> Outcome {
+        supel::reduce(&self.job_of(reduction, scene), Resources::default(), &mut ()).expect("reduced")
     }
 
     pub(crate) fn preservation(&self, method: &str, modes: &str, scene: &str) -> Preservation {

@@ -103,8 +103,15 @@ fn family() -> impl Strategy<Value = Family> {
     ]
 }
 
+/// The methods that need nothing but a number of modes.
 pub(crate) fn method() -> impl Strategy<Value = Method> {
-    prop_oneof![Just(Method::CraigBampton), Just(Method::Herting)]
+    prop_oneof![
+        Just(Method::CraigBampton),
+        Just(Method::Herting),
+        Just(Method::Rubin),
+        Just(Method::Macneal),
+        Just(Method::Guyan)
+    ]
 }
 
 pub(crate) fn component() -> impl Strategy<Value = Component> {

@@ -73,6 +73,8 @@ proptest! {
     /// P2: full ≤ reduced, and more modes never raise an eigenvalue.
     #[test]
     fn more_modes_never_raise_an_eigenvalue(component in component(), more in 1..=5usize) {
+        // A mass that leaves something out raises eigenvalues by that.
+        prop_assume!(component.method != Method::Macneal);
         let (model, interfaces) = (component.model(), component.interfaces());
         let fewer = component.reduce();
         let further = reduce(&model, &interfaces, component.method, fewer.modes.count() + more).expect("a component");
@@ -103,7 +105,7 @@ proptest! {
     fn reducing_again_with_all_modes_is_the_identity(component in component()) {
         let first = component.reduce();
         let (n_b, n) = (first.partition.n_interface(), first.reduction.n_reduced());
-        prop_assume!(n > n_b);
+        prop_assume!(n > n_b && component.method != Method::Macneal);
         // K̂ hides the rounding of terms that cancelled when it was made. Where that exceeds a few ε of its low eigenvalues,
         // nothing in the file tells a rigid-body mode from a slow elastic one.
         let lowest = Component::eigenvalues(&first);

@@ -53,6 +53,9 @@ fn ms_02_massless_interior_has_no_modes_of_its_own() {
     assert_eq!(warnings(&free), ["W-FEWER-MODES"]);
     // What follows the interface statically adds nothing and is left out by name.
     assert_eq!((free.report.body.reduction.dropped.len(), free.report.body.reduction.n_reduced), (2, 2));
+    // Nothing inside answers an acceleration, which would take rigid-body motion out of the answers to loads at the interface.
+    let error = Case::new(&chain, &[rows("ends", &[0, 19])]).method("rubin").refused(&["attachment modes", "deform"]);
+    assert!(matches!(error, Error::NoAttachmentModes), "{error}");
 }
 
 #[test]
@@ -207,5 +210,40 @@ fn ms_08_a_mass_added_at_the_interface() {
         let is_lower = |(with_rotor, alone): (&f64, &f64)| *with_rotor < alone * (1.0 + 1e-12);
         assert!(with_rotor.iter().zip(&alone).all(is_lower), "{eigensolver}: {with_rotor:?} for {alone:?}");
         assert!(with_rotor[0] < 0.9 * alone[0], "{eigensolver}: {with_rotor:?} for {alone:?}");
+    }
+}
+
+/// Masses that the job adds at interface nodes: as heavy as the component, and that of a base that nothing moves. Modes that hold these nodes
+/// stay what they are, and so does the stiffness.
+#[test]
+fn ms_07_ms_08_masses_of_the_job_at_the_interface() {
+    let block = brick([3, 2, 2], [3.0, 2.1, 1.9], &Material::UNIT);
+    let pins = [direct("pins", &[1, 12]), direct("tip", &[28])];
+    for method in ["craig-bampton", "mixed-interface"] {
+        let case = |mass: f64, nodes: &[i64]| {
+            let of_node = |node: &i64| format!("[[added_mass]]\nnode = {node}\nmass = {mass:e}\n");
+            let masses: Vec<String> = nodes.iter().map(of_node).collect();
+            Case { tables: masses.concat(), held: "\"pins\"", ..Case::new(&block, &pins).method(method) }
+        };
+        let alone = Case::new(&block, &pins).method(method);
+        let alone = Case { held: "\"pins\"", ..alone }.accepted();
+        for (mass, nodes) in [(6.0, &[1, 12][..]), (1e12, &[1])] {
+            let outcome = case(mass, nodes).accepted();
+            let ratio = worst_ratio(&eigenvalues(&outcome), &eigenvalues(&alone));
+            assert!(ratio <= 1e-13, "{method}, {mass:e}: {ratio:e}");
+            let (found, expected) = (outcome.superelement.tensors(), alone.superelement.tensors());
+            for i in 0..3 * nodes.len() {
+                let difference = found.mass[(i, i)] - expected.mass[(i, i)];
+                // Two sums, each rounded in units of the larger.
+                assert!(
+                    (difference / mass - 1.0).abs() <= 1e-14 * (1.0 + expected.mass[(i, i)] / mass),
+                    "{difference}"
+                );
+                assert!(
+                    (found.stiffness[(i, i)] / expected.stiffness[(i, i)] - 1.0).abs() <= 1e-13,
+                    "{method}, {mass:e}"
+                );
+            }
+        }
     }
 }

@@ -10,7 +10,12 @@ use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::verification::check::{Check, Verdict};
 use supel_models::{Model, write};
+use supel_runtime::Superelement;
 pub(crate) use supel_testing::chain::certified::eigensolver_words as eigensolvers;
+use supel_testing::pencil::{eigen, matrices};
+
+use crate::place::{Place, supel};
+use supel::cli::ExitCode;
 
 /// What a reduction is asked for.
 #[derive(Clone, Debug)]
@@ -20,12 +25,27 @@ pub(crate) struct Case {
     pub(crate) method: &'static str,
     pub(crate) modes: String,
     pub(crate) eigensolver: &'static str,
+    /// Whether inertia-relief modes are asked for.
+    pub(crate) inertia_relief: bool,
+    /// What `mixed-interface` holds, as a list of the job; the first interface where it is empty, in x alone where there are nodes.
+    pub(crate) held: &'static str,
     /// Further lines of the table `model`.
     pub(crate) of_model: String,
+    /// Further tables of the job.
+    pub(crate) tables: String,
+    /// Further files by their names. Without a `V.mtx` the modes of mode acceleration are the lowest motions of the model.
+    pub(crate) files: Vec<(&'static str, String)>,
 }
 
-/// Both methods.
+/// Craig-Bampton's and Herting's method: modes of the held and of the free component.
 pub(crate) const METHODS: [&str; 2] = ["craig-bampton", "herting"];
+
+/// Every method there is.
+pub(crate) const ALL: [&str; 7] =
+    ["craig-bampton", "herting", "rubin", "macneal", "guyan", "mixed-interface", "mode-acceleration"];
+
+/// Those that keep modes of the free component.
+pub(crate) const FREE: [&str; 3] = ["herting", "rubin", "macneal"];
 
 impl Case {
     /// A model reduced by Herting's method to six modes.
@@ -36,7 +56,11 @@ impl Case {
             method: "herting",
             modes: "{ count = 6 }".into(),
             eigensolver: "lanczos",
+            inertia_relief: false,
+            held: "",
             of_model: String::new(),
+            tables: String::new(),
+            files: Vec::new(),
         }
     }
 
@@ -50,6 +74,20 @@ impl Case {
 
     pub(crate) fn by(self, eigensolver: &'static str) -> Self {
         Self { eigensolver, ..self }
+    }
+
+    /// Makes the file with the command, has it verified by itself and against the model, and returns it.
+    #[track_caller]
+    pub(crate) fn verified(&self) -> Superelement {
+        let place = Place::new();
+        self.write(&place.path(""));
+        place.write("job.toml", self.job().as_bytes());
+        let (file, job) = (place.text("x.supel"), place.text("job.toml"));
+        for args in [&["reduce", &job, "--quiet"][..], &["verify", &file], &["verify", &file, "--job", &job]] {
+            let ended = supel(args);
+            assert_eq!(ended.code, ExitCode::Done, "{}, {}: {}{}", self.method, args[0], ended.out, ended.err);
+        }
+        place.superelement("x.supel")
     }
 
     /// Runs the program on files of the model.
@@ -116,14 +154,43 @@ impl Case {
         write::nodes_csv(&mut nodes, model).expect("written");
         put("dofs.txt", dofs);
         put("nodes.csv", nodes);
+        self.files.iter().for_each(|(name, content)| put(name, content.clone().into_bytes()));
+        if self.method == "mode-acceleration" && self.files.iter().all(|(name, _)| *name != "V.mtx") {
+            put("V.mtx", motions(model, self.n_asked() + 6).into_bytes());
+        }
+    }
+
+    /// How many modes are asked for.
+    fn n_asked(&self) -> usize {
+        let digits: String = self.modes.chars().filter(char::is_ascii_digit).collect();
+        digits.parse().expect("a number of modes")
+    }
+
+    /// The lines of the table `reduction`.
+    fn reduction(&self) -> String {
+        let first = self.interfaces.first().map(|interface| interface.name.as_str());
+        let kept = match (self.method, self.held, first) {
+            ("guyan", ..) => String::new(),
+            ("mode-acceleration", ..) => "modes = { file = \"V.mtx\" }\n".to_owned(),
+            ("mixed-interface", "", Some(first)) if self.model.dofs.is_empty() => {
+                format!("modes = {}\nheld = [{first:?}]\n", self.modes)
+            }
+            ("mixed-interface", "", Some(first)) => format!("modes = {}\nheld = [\"{first}.ux\"]\n", self.modes),
+            ("mixed-interface", held, _) => format!("modes = {}\nheld = [{held}]\n", self.modes),
+            _ => format!("modes = {}\n", self.modes),
+        };
+        let relief = if self.inertia_relief { "inertia_relief = true\n" } else { "" };
+        format!("method = \"{}\"\n{kept}{relief}eigensolver = \"{}\"\n", self.method, self.eigensolver)
     }
 
     fn job(&self) -> String {
         let maps = if self.model.dofs.is_empty() { "" } else { "dofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n" };
         let mut job = format!(
-            "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\n{maps}{}\n[reduction]\nmethod = \"{}\"\nmodes = {}\n\
-             eigensolver = \"{}\"\n[write]\nsuperelement = \"x.supel\"\n",
-            self.of_model, self.method, self.modes, self.eigensolver
+            "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\n{maps}{}\n[reduction]\n{}\
+             [write]\nsuperelement = \"x.supel\"\n{}\n",
+            self.of_model,
+            self.reduction(),
+            self.tables
         );
         for interface in &self.interfaces {
             let nodes = match &interface.nodes {
@@ -143,6 +210,24 @@ impl Case {
         }
         job
     }
+}
+
+/// The lowest motions of a model by dense algebra, zero modes included, as a file of modes.
+pub(crate) fn motions(model: &Model, count: usize) -> String {
+    let [k, m] = matrices(model);
+    let trace = |a: &faer::Mat<f64>| (0..model.n).map(|i| a[(i, i)]).sum::<f64>();
+    // Far below the highest eigenvalue, so that low motions keep their digits.
+    let (_, shapes) = eigen(k.as_ref(), m.as_ref(), 1e-3 * trace(&k) / trace(&m));
+    let columns: Vec<Vec<f64>> =
+        (0..count.min(model.n)).map(|j| (0..model.n).map(|i| shapes[(i, j)]).collect()).collect();
+    array(&columns)
+}
+
+/// Columns as a Matrix Market array, every double to the bit.
+pub(crate) fn array(columns: &[Vec<f64>]) -> String {
+    let mut text = format!("%%MatrixMarket matrix array real general\n{} {}\n", columns[0].len(), columns.len());
+    columns.iter().flatten().for_each(|value| text += &format!("{value:.17e}\n"));
+    text
 }
 
 /// The codes of the warnings, in their order.

@@ -14,7 +14,7 @@ use supel::job::{Boundary, Eigensolver};
 use supel::modes::{AtShift, BoundaryProblem, Component, LARGEST_SEARCH, ModeSource, Search};
 use supel::random::SEED;
 use supel::sparse::Pencil;
-use supel_models::transform::grounded;
+use supel_models::transform::{grounded, supported};
 use supel_models::*;
 
 use supel::cli::ExitCode;
@@ -22,6 +22,7 @@ use supel::cli::ExitCode;
 use crate::chain::certified::{Certified, certify, count, eigensolvers, free, held, up_to, with_component};
 use crate::chain::{direct, rows};
 use crate::place::Place;
+use crate::program::{ALL, Case, eigenvalues, warnings, worst_ratio};
 
 /// A square section bends alike in two directions: Beam = BRICK(20,2,2;10,1,1).
 fn beam() -> Model {
@@ -450,6 +451,26 @@ fn c_10_too_many_modes() {
     assert_eq!(warning["code"], "W-FEWER-MODES");
     let says = |text: &str| warning["message"].as_str().is_some_and(|message| message.contains(text));
     assert!(says("ended with 59: there is no other") && says("leaves 59 frequencies finite"), "{warning}");
+}
+
+/// Every method ends with the modes there are: those of the held end, those of the free one, none, or the columns of the file.
+#[test]
+fn c_10_too_many_modes_by_every_method() {
+    let model = bar(60);
+    let (free, held) = (bar_spectrum(60), spectrum(&supported(&model, |(label, _)| label == 60)));
+    for method in ALL {
+        let outcome = Case::new(&model, &[direct("end", &[60])]).method(method).count(1000).accepted();
+        let expected = match method {
+            "guyan" | "mode-acceleration" => &[][..],
+            "craig-bampton" | "mixed-interface" => &held,
+            _ => &free,
+        };
+        // Dense rotations err by n ε of the largest eigenvalue, which is 1400 times the least one.
+        assert!(worst_ratio(&eigenvalues(&outcome), expected) <= 1e-10, "{method}");
+        let n_reduced = if method == "guyan" { 1 } else { 60 };
+        assert_eq!(outcome.report.body.reduction.n_reduced, n_reduced, "{method}");
+        assert_eq!(warnings(&outcome).contains(&"W-FEWER-MODES"), !expected.is_empty(), "{method}");
+    }
 }
 
 /// That there are no more modes than were found is proved by the rank of M, or counted above them, by both eigensolvers.

@@ -111,7 +111,7 @@ fn gravity_is_the_projected_weight() {
             assert!(error <= 4.0 * rounding(case.model.n), "{}: {resultant:e} for {mass:e}", case.name);
         }
     }
-    assert_eq!(n_with_gravity, 7, "free bodies with coordinates");
+    assert_eq!(n_with_gravity, 8, "free bodies with coordinates");
 }
 
 fn is_symmetric(a: MatRef<'_, f64>) -> bool {

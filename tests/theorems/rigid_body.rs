@@ -12,7 +12,8 @@ use crate::chain::{Chain, EPS, Method, Twin, absolute, against_bound, difference
 #[test]
 fn rigid_body_modes_are_unit_motions() {
     let mut n_classical = 0;
-    for case in cases() {
+    // A mechanism is found by the stage of the constraint modes.
+    for case in cases().into_iter().filter(|case| !case.name.contains("hinge")) {
         let (partition, rigid) = rigid_of(&case.model, &case.interfaces).expect(case.name);
         assert_eq!(rigid.count(), case.n_rigid, "{}", case.name);
         if !rigid.is_classical {

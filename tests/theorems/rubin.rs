@@ -5,9 +5,8 @@ use faer::{Mat, MatRef};
 use supel::job::{ModeSelection, ReductionJob};
 use supel::modes::Retained;
 use supel::rubin::{Rubin, rubin_where_asked};
-use supel_models::{Material, brick};
 
-use crate::cases::{N_MODES, for_each_case};
+use crate::cases::{N_MODES, for_each_case, solid, tied};
 use crate::chain::{Chain, EPS, Method, Twin, absolute, direct, psi, reduce, terms};
 
 fn rubin(chain: &Chain) -> Rubin {
@@ -132,24 +131,7 @@ fn matrices_are_those_of_the_file_in_other_coordinates() {
 #[test]
 fn c_07_tied_interface_nodes_cost_no_digits() {
     for contrast in [1.0, 1e4, 1e8, 1e12] {
-        let mut model = brick([4, 2, 2], [4.0, 1.2, 0.7], &Material::UNIT);
-        let at = |label: i64| model.labels.iter().position(|other| *other == label).expect("a node");
-        let (a, b) = (model.nodes[at(1)], model.nodes[at(5)]);
-        let length = (0..3).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt();
-        let row = |label: i64, axis: u8| model.dofs.iter().position(|dof| *dof == (label, axis)).expect("a dof") as u32;
-        let ends: Vec<(u32, f64)> = [(1, -1.0), (5, 1.0)]
-            .into_iter()
-            .flat_map(|(label, sign)| (0..3u8).map(move |axis| (label, axis, sign)))
-            .map(|(label, axis, sign)| (row(label, axis), sign * (b[axis as usize] - a[axis as usize]) / length))
-            .collect();
-        let spring: Vec<_> =
-            ends.iter().flat_map(|&(i, x)| ends.iter().map(move |&(j, y)| (i, j, contrast * x * y))).collect();
-        for (i, j, value) in spring {
-            match model.stiffness.iter_mut().find(|entry| (entry.0, entry.1) == (i, j)) {
-                Some(entry) => entry.2 += value,
-                None => model.stiffness.push((i, j, value)),
-            }
-        }
+        let model = tied(solid(), [1, 5], contrast);
         let interfaces = [direct("pins", &[1, 5, 15, 45])];
         let chain = reduce(&model, &interfaces, Method::Rubin, N_MODES).expect("reduced");
         let twin = Twin::new(&model, &interfaces, &chain.partition);

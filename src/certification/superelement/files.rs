@@ -1,11 +1,12 @@
 //! A superelement of another program as it was read.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use faer::Mat;
 
+use crate::dofs::DofMap;
 use crate::error::{Error, Result};
-use crate::input::{self, Allowance, ForeignModes, SingleMatrix};
+use crate::input::{self, Allowance, ForeignModes, MatrixInput, ModeRows, ReducedPair};
 
 /// Where a superelement of another program is.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub struct ForeignSuperelement {
     pub stiffness: ReducedMatrix,
     /// M̂.
     pub mass: ReducedMatrix,
+    /// What each row of K̂ and M̂ is, where they name their rows.
+    pub dofs: Option<DofMap>,
 }
 
 /// A reduced matrix as it was read.
@@ -41,15 +44,16 @@ pub struct ReducedMatrix {
 }
 
 impl ForeignSuperelement {
-    /// Reads a superelement, for matrices of `n_rows` rows in their files.
+    /// Reads a superelement, for matrices of these rows.
     ///
     /// # Errors
     /// Those of the readers; [`Error::ReducedSize`] where a matrix has not as many rows as the basis has columns.
-    pub fn read(files: &ReducedFiles, n_rows: usize, allowance: &Allowance) -> Result<Self> {
-        let basis = input::foreign_modes(&files.basis, n_rows, allowance)?;
+    pub fn read(files: &ReducedFiles, rows: &ModeRows, allowance: &Allowance) -> Result<Self> {
+        let basis = input::foreign_modes(&files.basis, rows, allowance)?;
         let n_columns = basis.columns.len();
-        let matrix = |path: &Path| ReducedMatrix::read(path, n_columns, allowance);
-        Ok(Self { stiffness: matrix(&files.stiffness)?, mass: matrix(&files.mass)?, basis })
+        let ReducedPair { stiffness, mass, dofs } = ReducedPair::read(&files.stiffness, &files.mass, allowance)?;
+        let matrix = |input| ReducedMatrix::of(input, n_columns);
+        Ok(Self { stiffness: matrix(stiffness)?, mass: matrix(mass)?, basis, dofs })
     }
 
     /// r.
@@ -59,9 +63,7 @@ impl ForeignSuperelement {
 }
 
 impl ReducedMatrix {
-    fn read(path: &Path, n_columns: usize, allowance: &Allowance) -> Result<Self> {
-        let matrix = SingleMatrix { file: path.to_owned(), layout: None, dofs: None };
-        let input = matrix.read(allowance)?.input;
+    fn of(input: MatrixInput, n_columns: usize) -> Result<Self> {
         let found = input.matrix.rows();
         if found != n_columns {
             return Err(Error::ReducedSize { path: input.path, found, n_columns });

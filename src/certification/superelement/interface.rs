@@ -21,6 +21,8 @@ pub struct Interface {
     pub jobs: Vec<InterfaceJob>,
     /// What each of these coordinates is called.
     pub names: BTreeMap<usize, String>,
+    /// Node and direction of each of these coordinates, where a map tells them.
+    pub dofs: BTreeMap<usize, Dof>,
     /// Names of rows that no coordinate moves, though nothing holds them.
     pub at_rest: Vec<String>,
 }
@@ -66,8 +68,9 @@ pub fn interface(partition: &Partition, foreign: &ForeignSuperelement) -> Interf
     let rows = own.keys().map(|row| partition.model.rows.of(*row)).collect();
     let jobs = jobs(own.iter().map(|(row, (_, at))| (partition.model.rows.of(*row), partition.dofs[*at].dof)));
     let names = own.values().map(|(coordinate, at)| (*coordinate, partition.name_of(*at))).collect();
+    let dofs = own.values().filter_map(|(coordinate, at)| Some((*coordinate, partition.dofs[*at].dof?))).collect();
     let coordinates = own.into_iter().map(|(row, (coordinate, _))| (row, coordinate)).collect();
-    Interface { coordinates, rows, names, jobs, at_rest: at_rest.into_values().collect() }
+    Interface { coordinates, rows, names, dofs, jobs, at_rest: at_rest.into_values().collect() }
 }
 
 /// An interface for each node where there are a few, in the order of their first rows; otherwise one of all rows.

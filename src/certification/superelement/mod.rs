@@ -17,6 +17,7 @@ mod foreign;
 mod interface;
 mod judged;
 mod left_out;
+mod named_rows;
 mod pairing;
 mod preserved;
 

@@ -92,18 +92,18 @@ impl Cell {
     }
 
     /// Corners, which are the first nodes.
-    pub(super) fn n_corners(self) -> usize {
+    pub(in super::super) fn n_corners(self) -> usize {
         Self::linear(self.shape).n_nodes
     }
 
     /// The first node that is at no corner and on no edge.
-    pub(super) fn first_central(self) -> usize {
+    pub(in super::super) fn first_central(self) -> usize {
         let n_edges = if self.n_nodes == self.n_corners() { 0 } else { self.orders()[0].len() };
         self.n_corners() + n_edges
     }
 
     /// The edges in each order that nodes in their middles may have; without such nodes they have none.
-    pub(super) fn orders(self) -> &'static [Edges] {
+    pub(in super::super) fn orders(self) -> &'static [Edges] {
         match self.shape {
             Shape::Triangle => &[TRIANGLE],
             Shape::Quadrilateral => &[QUADRILATERAL],

@@ -137,6 +137,20 @@ impl<'a> Group<'a> {
         }
     }
 
+    /// The dataset at `path` below this group where it has two extents, so that it may be a dense matrix.
+    pub(super) fn find_dense(&self, path: &str) -> Result<Option<Dataset<'a>>> {
+        let (folder, member) = path.rsplit_once('/').unwrap_or(("", path));
+        let is_dataset = match self.find_group(folder)? {
+            Some(group) => group.member(member)? == Some(Member::Dataset),
+            None => false,
+        };
+        let dataset = if is_dataset { self.find_dataset(path)? } else { None };
+        match dataset {
+            Some(dataset) if dataset.shape()?.len() == 2 => Ok(Some(dataset)),
+            _ => Ok(None),
+        }
+    }
+
     /// The group of that name among the members.
     pub(super) fn child_group(&self, member: &str) -> Result<Group<'a>> {
         let name = self.child_name(member);

@@ -43,6 +43,7 @@ pub(in crate::input) use modes::feminterface_modes;
 pub(crate) use modes::{mode_columns, rehearse_dataset, rehearse_feminterface};
 pub use nodes::read_nodes;
 pub(crate) use nodes::{data_digest, read_nodes_within, referenced_files};
+pub(in crate::input) use patch_cells::read_cells;
 pub(crate) use patch_cells::read_faces;
 pub use sparse::read_matrix;
 pub(crate) use sparse::read_matrix_within;

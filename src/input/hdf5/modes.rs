@@ -51,7 +51,7 @@ pub(in crate::input) fn feminterface_modes(path: &Path, n_rows: usize, allowance
             _ => None,
         };
         let values = values.map(|values| (ValueUnit::Eigenvalue, values));
-        Ok(ReadModes { columns, values, program: Some("Exudyn") })
+        Ok(ReadModes { values, program: Some("Exudyn"), ..ReadModes::of_columns(columns) })
     })
 }
 

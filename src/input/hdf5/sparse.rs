@@ -5,11 +5,13 @@ use std::path::Path;
 use supel_runtime::Symmetry;
 
 use super::convention::Convention;
+use super::dataset::Dataset;
 use super::file::{H5, with_memory};
 use super::nastran;
+use super::numbers::Reals;
 use super::search::find_matrix;
 use crate::error::{Error, Result};
-use crate::input::compressed::Compressed;
+use crate::input::compressed::{Compressed, Major};
 use crate::input::file_start::FileStart;
 use crate::input::further_matrix::first_breach;
 use crate::input::hdf5::group::Group;
@@ -56,15 +58,18 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
             let (compressed, name) = nastran::read(&tables, group, role)?;
             Found { compressed, name, digits: u32::MAX, tells_rows_from_columns: true }
         }
-        None => Found::in_groups(root, group, role)?,
+        None => match group.map(|name| root.find_dense(name)).transpose()?.flatten() {
+            Some(dataset) => Found::dense(&dataset)?,
+            None => Found::in_groups(root, group, role)?,
+        },
     };
     let Found { compressed, name, digits, tells_rows_from_columns } = found;
     let digits = digits_of(compressed.values()).at_most(digits);
     let n = compressed.check(h5.path(), &name)?;
     h5.hold((TRIPLET_BYTES + ENTRY_BYTES) * compressed.values().len() as u64 + ROW_BYTES * n as u64)?;
     let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, role.undeclared(), h5.path())?;
-    // It would be another matrix with its rows taken for columns.
-    let is_ambiguous = role.takes_any() && !tells_rows_from_columns;
+    // It would be another matrix with its rows taken for columns; a reduced one is symmetric to rounding, or judged for that.
+    let is_ambiguous = role.takes_any() && role != MatrixRole::Reduced && !tells_rows_from_columns;
     if is_ambiguous && first_breach(&matrix, Symmetry::Symmetric).is_some() {
         return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: name });
     }
@@ -82,6 +87,29 @@ struct Found {
 }
 
 impl Found {
+    /// The entries of a dataset of as many rows as columns that are not zero. Nothing says whether it is stored by rows or by columns.
+    fn dense(dataset: &Dataset<'_>) -> Result<Self> {
+        let shape = dataset.shape()?;
+        let [n_rows, n_columns] = shape[..] else {
+            return Err(dataset.wrong_shape(format!("extents {shape:?}"), "rows and columns".to_owned()));
+        };
+        let Reals { values, digits } = dataset.reals()?;
+        let mut pointers = vec![0];
+        let (mut indices, mut entries) = (Vec::new(), Vec::new());
+        for row in values.chunks_exact(n_columns.max(1)) {
+            for (value, col) in row.iter().zip(0..).filter(|(value, _)| **value != 0.0) {
+                indices.push(col);
+                entries.push(*value);
+            }
+            pointers.push(indices.len() as i64);
+        }
+        let name = dataset.name().to_owned();
+        let sizes = [n_rows as u64, n_columns as u64];
+        let names = [name.clone(), name.clone(), name.clone()];
+        let compressed = Compressed::new(Major::Rows, sizes, pointers, indices, entries, names);
+        Ok(Self { compressed, name, digits, tells_rows_from_columns: false })
+    }
+
     /// The matrix of a group, by the conventions of the programs that write one.
     fn in_groups(root: Group<'_>, group: Option<&str>, role: MatrixRole) -> Result<Self> {
         let start = root.group(group.unwrap_or("/"))?;

@@ -1,4 +1,5 @@
-//! Result files of CalculiX (`.frd`), in text and binary: nodes and elements. They have no groups.
+//! Result files of CalculiX (`.frd`), in text and binary: nodes and elements. They have no groups. Their modes are read by
+//! [`crate::input::frd_modes`].
 //!
 //! Numbers stand in columns of fixed width, so that neighbours may touch.
 
@@ -33,8 +34,8 @@ pub(super) fn sureness(start: &FileStart<'_>) -> Sureness {
 }
 
 /// How a block is written: the last number of its head.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Block {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::input) enum Block {
     /// Text with numbers of nodes in so many columns.
     Text(usize),
     /// Numbers of 32 or 64 bits.
@@ -72,17 +73,27 @@ pub(super) fn read(path: &Path, allowance: &Allowance) -> Result<CellMesh> {
 fn head(stream: &Stream, line: &[u8], double: Block) -> Result<(u64, Block)> {
     let text = String::from_utf8_lossy(line);
     let numbers: Vec<u64> = text.split_ascii_whitespace().skip(1).filter_map(|word| word.parse().ok()).collect();
-    let block = match numbers.last() {
-        Some(0) => Block::Text(5),
-        Some(1) => Block::Text(10),
-        Some(2) => Block::Single,
-        Some(3) => double,
-        _ => return Err(stream.error(format!("`{}`", excerpt(line)), "the number of items and a form from 0 to 3")),
-    };
-    Ok((numbers[0], block))
+    match numbers.last().and_then(|form| Block::of_form(*form, double)) {
+        Some(block) => Ok((numbers[0], block)),
+        None => Err(stream.error(format!("`{}`", excerpt(line)), "the number of items and a form from 0 to 3")),
+    }
 }
 
-fn nodes(stream: &mut Stream, line: &[u8], mesh: &mut CellMesh, claim: &Claim<'_>) -> Result<()> {
+impl Block {
+    /// The block of a form; `double` is what the last form stands for.
+    pub(in crate::input) fn of_form(form: u64, double: Self) -> Option<Self> {
+        match form {
+            0 => Some(Self::Text(5)),
+            1 => Some(Self::Text(10)),
+            2 => Some(Self::Single),
+            3 => Some(double),
+            _ => None,
+        }
+    }
+}
+
+/// Reads a block of nodes, of which the first line was read.
+pub(in crate::input) fn nodes(stream: &mut Stream, line: &[u8], mesh: &mut CellMesh, claim: &Claim<'_>) -> Result<()> {
     let (n, block) = head(stream, line, Block::Double)?;
     let mut at = 0;
     loop {
@@ -138,7 +149,13 @@ fn binary_node(stream: &mut Stream, block: Block) -> Result<(i64, [f64; 3])> {
     Ok((label, point))
 }
 
-fn elements(stream: &mut Stream, line: &[u8], mesh: &mut CellMesh, claim: &Claim<'_>) -> Result<()> {
+/// Reads a block of elements, of which the first line was read.
+pub(in crate::input) fn elements(
+    stream: &mut Stream,
+    line: &[u8],
+    mesh: &mut CellMesh,
+    claim: &Claim<'_>,
+) -> Result<()> {
     let labels = Labels::new(&mesh.nodes.labels).map_err(|[first, _]| {
         stream.error(format!("node {} twice", mesh.nodes.labels[first]), "one node of a number")
     })?;
@@ -231,7 +248,7 @@ fn kind_of(number: i64) -> Kind {
 }
 
 /// A line with the blanks at its start.
-fn raw_line(stream: &mut Stream, expected: &str) -> Result<Vec<u8>> {
+pub(in crate::input) fn raw_line(stream: &mut Stream, expected: &str) -> Result<Vec<u8>> {
     match stream.raw_line()? {
         Some(line) => Ok(line),
         None => Err(stream.error("the end of the file", expected)),

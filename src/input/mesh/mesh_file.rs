@@ -6,8 +6,9 @@ use super::cell_mesh::CellMesh;
 use super::{deck, frd, gmsh, vtk};
 use crate::error::Result;
 use crate::input::Allowance;
+use crate::input::faces::CellList;
 use crate::input::file_start::FileStart;
-use crate::input::format::{Format, NodeFormat, ReadNodes, Sureness};
+use crate::input::format::{Format, NodeFormat, ReadCells, ReadNodes, Sureness};
 use crate::input::patch::{PatchFaces, Patches};
 
 /// A format of meshes.
@@ -67,6 +68,13 @@ impl NodeFormat for MeshFile {
 
     fn has_cells(&self) -> bool {
         true
+    }
+
+    fn read_cells(&self, path: &Path, _: &[[f64; 3]], allowance: &Allowance) -> Result<ReadCells> {
+        let CellMesh { cells: runs, unread, .. } = (self.read)(path, allowance)?;
+        let mut cells = CellList::default();
+        runs.into_iter().for_each(|run| cells.extend(run.cell, run.nodes));
+        Ok(ReadCells { cells, unread })
     }
 
     fn read_faces(&self, path: &Path, patches: &Patches, allowance: &Allowance) -> Result<Vec<PatchFaces>> {

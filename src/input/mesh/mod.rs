@@ -5,7 +5,7 @@
 
 mod cell_mesh;
 pub(super) mod deck;
-mod frd;
+pub(super) mod frd;
 mod gmsh;
 mod groups;
 mod labels;
@@ -13,6 +13,7 @@ mod mesh_file;
 pub(super) mod stream;
 pub(super) mod vtk;
 
+pub(super) use cell_mesh::CellMesh;
 #[cfg(feature = "hdf5")]
-pub(super) use cell_mesh::{CellMesh, named_apart};
+pub(super) use cell_mesh::named_apart;
 pub(super) use mesh_file::{DECK, FRD, GMSH, VTK, VTU};

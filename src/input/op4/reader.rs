@@ -103,7 +103,7 @@ pub(in crate::input) fn modes(source: &ModeSource<'_>) -> Result<ReadModes> {
     } else {
         columns(source, text::File::open)
     };
-    Ok(ReadModes { columns: columns?, values: None, program: None })
+    columns.map(ReadModes::of_columns)
 }
 
 /// Whether a file is one of the format.
@@ -112,7 +112,7 @@ pub(in crate::input) fn begins(start: &FileStart<'_>) -> bool {
 }
 
 fn columns<'a, F: Matrices<'a>>(source: &'a ModeSource<'a>, open: fn(&'a Path) -> Result<F>) -> Result<Vec<Vec<f64>>> {
-    let (path, n_rows) = (source.file.as_path(), source.n_rows);
+    let (path, n_rows) = (source.file.as_path(), source.rows.n);
     let (mut file, head) = found(path, open, (source.member.as_deref(), MatrixRole::Further))?;
     head.form(path)?;
     if head.n_rows() != n_rows as u64 {

@@ -1,4 +1,4 @@
-//! The largest error of one kind with its limit: M-29 to M-31.
+//! The largest error of one kind with its limit: M-29 to M-31, M-34.
 
 use serde::Serialize;
 
@@ -30,6 +30,9 @@ pub enum AccuracyMeasure {
     Frequency,
     /// The frequency response in the band, in dB.
     Response,
+    /// Internal loads in the band, relative.
+    #[serde(rename = "internal_load")]
+    InternalLoad,
     /// Static stiffness of the interfaces and static answers to loads, relative.
     Static,
 }
@@ -72,7 +75,7 @@ impl Accuracy {
         }
     }
 
-    /// M-29 to M-31, where the scene sets the limit.
+    /// M-29 to M-31 and M-34, where the scene sets the limit.
     pub(crate) fn check(&self) -> Option<Check> {
         let limit = self.limit.filter(|_| self.set_by == LimitSource::Scene)?;
         let (id, name, equation) = match self.measure {
@@ -85,6 +88,11 @@ impl Accuracy {
                 "M-30",
                 "response within what the scene accepts",
                 "max |20 log₁₀ |Ĥ/H||, 20 log₁₀(1 + |Ĥ − H|/|H|) in dB over pairs of dofs and the band",
+            ),
+            AccuracyMeasure::InternalLoad => (
+                "M-34",
+                "internal loads within what the scene accepts",
+                "max ‖û − u‖_K / ‖u‖_K of the answer to a unit force on an interface dof, over the band",
             ),
             AccuracyMeasure::Static => (
                 "M-31",

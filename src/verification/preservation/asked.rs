@@ -1,4 +1,4 @@
-//! How far the reduced model answers what the scene asks, and what would answer it: M-29 to M-31.
+//! How far the reduced model answers what the scene asks, and what would answer it: M-29 to M-31, M-34.
 //!
 //! Limits come from the scene, where a value past one fails, or from practice, where it warns. A value that could not be measured
 //! meets no limit of the scene.
@@ -11,7 +11,7 @@ use crate::verification::evidence::Evidence;
 use super::accuracy::{Accuracy, AccuracyMeasure, LimitSource};
 use super::advice::{Advice, STEEPEST_FREE, STEEPEST_HELD, band_met, modes_needed};
 use super::outcome::{Preservation, SizeError};
-use super::policy::Plan;
+use super::policy::{Plan, ResponseExtent};
 
 /// Relative error of a frequency from which on practice asks for a reason. Tests of structures are accepted where frequencies agree
 /// with the analysis within 3 % (SMC-S-004) or 5 % (NASA-STD-5002); the reduction may take a third of the smaller one.
@@ -36,11 +36,16 @@ impl Asked<'_> {
     /// Every measure of the scene or of practice, in the order of the keys of `accept`.
     pub(super) fn measures(&self) -> Vec<Accuracy> {
         let accept = self.job.accepted();
-        if self.plan.supports.is_empty() && !self.plan.response && accept == AcceptJob::default() {
+        if self.plan.supports.is_empty()
+            && self.plan.response == ResponseExtent::NotCompared
+            && accept == AcceptJob::default()
+        {
             return Vec::new();
         }
         let statics = accept.statics.map(|limit| self.statics(limit));
-        [self.frequencies(accept.frequency), self.response(accept.response_db)].into_iter().chain(statics).collect()
+        let loads = accept.internal_load.map(|limit| self.internal_loads(limit));
+        let [frequencies, response] = [self.frequencies(accept.frequency), self.response(accept.response_db)];
+        [frequencies, response].into_iter().chain(loads).chain(statics).collect()
     }
 
     fn frequencies(&self, accepted: Option<f64>) -> Accuracy {
@@ -105,6 +110,26 @@ impl Asked<'_> {
             let errors = response.samples.iter().map(|sample| (sample.frequency_hz, sample.error_db));
             let met = band_met("the response", errors, limit);
             accuracy.advice = Some(self.advice(met, limit, |size| size.response_error_db));
+        }
+        accuracy
+    }
+
+    fn internal_loads(&self, accepted: f64) -> Accuracy {
+        let limits = (Some(accepted), LimitSource::Scene);
+        let Some(loads) = &self.report.internal_loads else {
+            let why = self.why(&["internal loads", "frequency response"]);
+            return Accuracy::unmeasured(AccuracyMeasure::InternalLoad, limits, why);
+        };
+        let place = format!("a force on {} at {} Hz", loads.driven, quantity(loads.worst_at_hz, 6));
+        let mut accuracy = Accuracy {
+            error: Some(loads.worst),
+            at: Some(place),
+            ..Accuracy::unmeasured(AccuracyMeasure::InternalLoad, limits, None)
+        };
+        if !accuracy.is_met() {
+            let errors = loads.samples.iter().map(|sample| (sample.frequency_hz, sample.error));
+            let met = band_met("internal loads", errors, accepted);
+            accuracy.advice = Some(self.advice(met, accepted, |size| size.internal_load_error));
         }
         accuracy
     }

@@ -15,12 +15,13 @@ use super::boundaries;
 use super::boundary::Boundary;
 use super::counts::Condensed;
 use super::interfaces::Interface;
+use super::internal_loads::FullLoads;
 use super::reference::Reference;
 
 use super::accuracy::Accuracy;
 use super::asked::Asked;
 use super::outcome::Preservation;
-use super::policy::{Motion, Plan};
+use super::policy::{Motion, Plan, ResponseExtent};
 use super::shift::shift;
 use super::unmade::{Unmade, unmade_check};
 use super::{counts, interfaces, mac, response, sizes, statics};
@@ -30,7 +31,7 @@ use super::{counts, interfaces, mac, response, sizes, statics};
 pub struct Compared {
     /// The reduced model compared with the full one.
     pub report: Preservation,
-    /// M-06, M-15, M-17, M-20, M-21, M-24 and M-29 to M-31, as far as they were made, and M-33 where one could not be.
+    /// M-06, M-15, M-17, M-20, M-21, M-24, M-29 to M-31 and M-34, as far as they were made, and M-33 where one could not be.
     pub checks: Vec<Check>,
     /// Comparisons that could not be made.
     pub unmade: Vec<Unmade>,
@@ -55,7 +56,7 @@ pub fn preservation_of_file(
     job: &Job,
 ) -> Result<Compared> {
     let plan = Plan::new(evidence, analysis, job);
-    let mut compared = measured(evidence, analysis, &plan)?;
+    let mut compared = measured((evidence, own), analysis, &plan)?;
     compared.checks.extend(unmade_check(&compared.unmade));
     let report = &compared.report;
     let lacking = job.accepted().statics.and_then(|_| named_loads::lacking(own));
@@ -65,7 +66,7 @@ pub fn preservation_of_file(
     Ok(compared)
 }
 
-fn measured(evidence: &Evidence<'_>, analysis: &Analysis, plan: &Plan) -> Result<Compared> {
+fn measured((evidence, own): (&Evidence<'_>, &Evidence<'_>), analysis: &Analysis, plan: &Plan) -> Result<Compared> {
     let interfaces = interfaces::interfaces(evidence.partition);
     let mut compared = Compared::default();
     compared.report.not_compared = plan.not_compared.clone();
@@ -81,7 +82,7 @@ fn measured(evidence: &Evidence<'_>, analysis: &Analysis, plan: &Plan) -> Result
     compared.checks.extend(statics::check(evidence, &compared.report.statics));
     if let Some(band_hz) = plan.band_hz.filter(|_| plan.motion == Motion::Compared) {
         let references = compared.references(evidence, analysis, &interfaces, plan)?;
-        compared.dynamics(evidence, (plan, band_hz), &references)?;
+        compared.dynamics((evidence, own), (plan, band_hz), &references)?;
     }
     Ok(compared)
 }
@@ -188,7 +189,7 @@ impl Compared {
 
     fn dynamics(
         &mut self,
-        evidence: &Evidence<'_>,
+        (evidence, own): (&Evidence<'_>, &Evidence<'_>),
         (plan, band_hz): (&Plan, [f64; 2]),
         references: &[Reference],
     ) -> Result<()> {
@@ -197,14 +198,17 @@ impl Compared {
             let comparison = self.kept(&what, reference.comparison(evidence, band_hz))?;
             self.report.boundaries.extend(comparison);
         }
-        let response = if plan.response {
-            self.kept("frequency response", response::compared(evidence, evidence.factor, band_hz, plan.eta))?
+        let response = if plan.response != ResponseExtent::NotCompared {
+            let loaded = (plan.response == ResponseExtent::WithInternalLoads).then_some(own);
+            self.kept("frequency response", response::compared(evidence, loaded, band_hz, plan.eta))?
         } else {
             None
         };
         if let Some(response) = &response {
             self.checks.extend(response::checks(response));
             self.report.response = Some(response.report.clone());
+            let loads = response.full.loads.as_ref().map(FullLoads::compared).transpose();
+            self.report.internal_loads = self.kept("internal loads", loads)?.flatten();
         }
         let monotonicity = boundaries::monotonicity(evidence, references);
         let monotonicity = self.kept("monotonicity of the frequencies", monotonicity)?.flatten();

@@ -275,6 +275,11 @@ impl<'a> Extended<'a> {
         Response::of(&self.spectral, self.evidence, frequency_hz, self.eta)
     }
 
+    /// The spectral form of the full model on the basis, and Ψ_eᵀKΨ_e.
+    pub(super) fn into_pencil(self) -> (Spectral, Mat<f64>) {
+        (self.spectral, self.stiffness)
+    }
+
     /// Bound on the error of the response at a frequency, entry by entry as the product of two numbers of the rows:
     /// |ΔH_ij| ≤ ρ_i ρ_j / η with ρ_j = ‖r_j‖ in the norm of K_II⁻¹, to first order in the error.
     ///

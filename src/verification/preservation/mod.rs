@@ -6,9 +6,10 @@
 //! counts       how many such frequencies the full model has             M-06
 //! statics      stiffness of each interface by direct solves             M-17
 //! response     frequency response of all pairs of interface dofs        M-20, M-21
+//! loads        internal loads under forces on the interface
 //! scan         where between its samples the response errs most
 //! sizes        these errors for a smaller basis
-//! asked        the largest of them, and what the scene accepts          M-29 to M-31
+//! asked        the largest of them, and what the scene accepts          M-29 to M-31, M-34
 //! unmade       comparisons that the matrices have no answer for         M-33
 //! ```
 //! Every answer of the full model comes from the full sparse matrices, and its residual is checked. The factor of K_II,
@@ -26,6 +27,8 @@ mod enough;
 mod extended;
 mod full;
 mod interfaces;
+mod internal_loads;
+mod leading;
 mod mac;
 mod outcome;
 mod pair_error;
@@ -44,8 +47,8 @@ pub use accuracy::{Accuracy, AccuracyMeasure, LimitSource};
 pub use compared::{Compared, preservation, preservation_of_file};
 pub use enough::fewest_modes;
 pub use outcome::{
-    BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, Preservation, PreservedMode,
-    ResponseComparison, ResponseSample, SizeError,
+    BoundaryComparison, BoundaryCount, FrequencyPair, HighestFrequency, InterfaceStatics, InternalLoads, LoadSample,
+    Preservation, PreservedMode, ResponseComparison, ResponseSample, SizeError,
 };
-pub use policy::{Motion, Plan};
+pub use policy::{Motion, Plan, ResponseExtent};
 pub use unmade::{Unmade, unmade_check};

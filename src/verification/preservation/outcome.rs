@@ -18,6 +18,8 @@ pub struct Preservation {
     pub statics: Vec<InterfaceStatics>,
     /// Frequency response between interface dofs.
     pub response: Option<ResponseComparison>,
+    /// Internal loads under forces on the interface, where the scene says how far off they may be.
+    pub internal_loads: Option<InternalLoads>,
     /// How many modes would give which error.
     pub size_errors: Vec<SizeError>,
     /// The highest frequency of the reduced model and the step that an integrator needs for it.
@@ -148,6 +150,28 @@ pub struct ResponseSample {
     pub error_db: f64,
 }
 
+/// Internal loads under harmonic forces on the interface, reduced against full model, in the norm of the strain energy.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InternalLoads {
+    /// Largest relative error.
+    pub worst: f64,
+    /// Where.
+    pub worst_at_hz: f64,
+    /// The interface dof that is driven there.
+    pub driven: String,
+    /// The samples, ascending in frequency.
+    pub samples: Vec<LoadSample>,
+}
+
+/// Internal loads at one frequency.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LoadSample {
+    /// The frequency.
+    pub frequency_hz: f64,
+    /// Largest relative error over all driven dofs.
+    pub error: f64,
+}
+
 /// The error that a smaller basis would have.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SizeError {
@@ -159,6 +183,8 @@ pub struct SizeError {
     pub frequency_error: f64,
     /// Largest error of the frequency response in the band, in dB.
     pub response_error_db: Option<f64>,
+    /// Largest relative error of internal loads in the band, where the scene says how far off they may be.
+    pub internal_load_error: Option<f64>,
 }
 
 /// The highest frequency of the reduced model.

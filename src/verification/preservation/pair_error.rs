@@ -18,25 +18,28 @@ pub(super) struct PairError {
 
 /// |H_ij|, or the floor set by its driving points.
 pub(super) fn magnitude(response: &Response, i: usize, j: usize) -> f64 {
-    response.get(i, j).norm().max(floor(response, i, j))
+    let root = |i: usize| response.get(i, i).norm().sqrt();
+    response.get(i, j).norm().max(UNCOUPLED * root(i) * root(j))
 }
 
-fn floor(response: &Response, i: usize, j: usize) -> f64 {
-    UNCOUPLED * (response.get(i, i).norm() * response.get(j, j).norm()).sqrt()
+/// Roots of the driving-point responses: the floor of a pair is a thousandth of the product of its two.
+fn roots(response: &Response) -> Vec<f64> {
+    (0..response.n()).map(|i| length(response.get(i, i)).sqrt()).collect()
 }
 
 /// The pair of interface dofs whose responses differ most.
 pub(super) fn worst_pair(full: &Response, reduced: &Response) -> PairError {
-    let mut worst = PairError { pair: (0, 0), decibel: 0.0 };
+    let roots = roots(full);
+    let (mut worst, mut pair) = (0.0, (0, 0));
     for j in 0..full.n() {
         for i in 0..=j {
-            let decibel = decibel(full.get(i, j), reduced.get(i, j), floor(full, i, j));
-            if dense::worse(decibel, worst.decibel) {
-                worst = PairError { pair: (i, j), decibel };
+            let excess = excess(full.get(i, j), reduced.get(i, j), UNCOUPLED * roots[i] * roots[j]);
+            if dense::worse(excess, worst) {
+                (worst, pair) = (excess, (i, j));
             }
         }
     }
-    worst
+    PairError { pair, decibel: decibel(worst) }
 }
 
 /// Where between two frequencies the responses of a pair pass nearest to nothing, and how far they differ there.
@@ -52,21 +55,22 @@ pub(super) struct Dip {
 /// An antiresonance of a pair is as narrow as its response happens to pass by zero in the complex plane, and no damping widens it. From one
 /// frequency to the next the response itself moves by little, so that its chord passes by zero where the response does.
 pub(super) fn worst_dip([full, reduced]: [[&Response; 2]; 2]) -> Dip {
-    let mut worst = Dip { place: 0.5, decibel: 0.0 };
+    let roots = full.map(roots);
+    let (mut worst, mut at) = (0.0, 0.5);
     for j in 0..full[0].n() {
         for i in 0..=j {
             let chords = [full, reduced].map(|ends| ends.map(|response| response.get(i, j)));
             for place in chords.into_iter().filter_map(nearest_to_zero) {
                 let on = |[a, b]: [c64; 2]| a + (b - a) * place;
-                let floor = full.map(|response| floor(response, i, j)).into_iter().fold(0.0, f64::max);
-                let decibel = decibel(on(chords[0]), on(chords[1]), floor);
-                if dense::worse(decibel, worst.decibel) {
-                    worst = Dip { place, decibel };
+                let floor = UNCOUPLED * (roots[0][i] * roots[0][j]).max(roots[1][i] * roots[1][j]);
+                let excess = excess(on(chords[0]), on(chords[1]), floor);
+                if dense::worse(excess, worst) {
+                    (worst, at) = (excess, place);
                 }
             }
         }
     }
-    worst
+    Dip { place: at, decibel: decibel(worst) }
 }
 
 /// The place on a chord, between 0 and 1, that is nearest to zero; none where that is one of its ends.
@@ -76,13 +80,24 @@ fn nearest_to_zero([a, b]: [c64; 2]) -> Option<f64> {
     (ahead > 0.0 && ahead < length).then(|| ahead / length)
 }
 
-/// Error of a response in dB: the difference of the levels or, where that is larger, the level that the complex
-/// difference adds, so that a wrong phase counts too.
-fn decibel(full: c64, reduced: c64, floor: f64) -> f64 {
-    let (size, other) = (full.norm().max(floor), reduced.norm().max(floor));
-    let levels = (20.0 * (other / size).log10()).abs();
-    let difference = 20.0 * ((reduced - full).norm() / size).ln_1p() / std::f64::consts::LN_10;
-    if dense::worse(difference, levels) { difference } else { levels }
+/// By how much the larger of two responses exceeds the smaller, relatively, or their complex difference the full one, where that is more, so
+/// that a wrong phase counts too. Levels in dB follow it, and a logarithm for every pair would take most of the time of a scan.
+fn excess(full: c64, reduced: c64, floor: f64) -> f64 {
+    let (size, other) = (length(full).max(floor), length(reduced).max(floor));
+    // A larger response exceeds the full one by no more than it differs.
+    let lacks = (size - other) / other;
+    let differs = length(reduced - full) / size;
+    if dense::worse(differs, lacks) { differs } else { lacks }
+}
+
+/// |z| of numbers whose squares are far from the ends of the range: responses in scaled units.
+fn length(z: c64) -> f64 {
+    z.norm_sqr().sqrt()
+}
+
+/// The level of 1 + x in dB, in all its digits where x is small.
+fn decibel(excess: f64) -> f64 {
+    20.0 * excess.ln_1p() / std::f64::consts::LN_10
 }
 
 #[cfg(test)]
@@ -102,8 +117,8 @@ mod tests {
         // Twice is 6.02 dB and half as well; the same size with the phase turned by 60° differs by one: 6.02 dB.
         let six = 20.0 * 2f64.log10();
         for other in [c64::new(2.0, 0.0), c64::new(0.5, 0.0), c64::new(0.5, 0.75f64.sqrt())] {
-            assert!((decibel(one, other, 0.0) - six).abs() < 1e-12, "{other}");
+            assert!((decibel(excess(one, other, 0.0)) - six).abs() < 1e-12, "{other}");
         }
-        assert!(decibel(one * 1e-9, one * 2e-9, 1.0) < 1e-7, "below the floor");
+        assert!(decibel(excess(one * 1e-9, one * 2e-9, 1.0)) < 1e-7, "below the floor");
     }
 }

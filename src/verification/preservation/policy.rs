@@ -19,6 +19,17 @@ pub enum Motion {
     NotAsked,
 }
 
+/// What of the frequency response is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResponseExtent {
+    /// Nothing.
+    NotCompared,
+    /// Displacements of the interfaces.
+    AtInterfaces,
+    /// These and internal loads.
+    WithInternalLoads,
+}
+
 /// What will be compared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -30,8 +41,8 @@ pub struct Plan {
     pub supports: Vec<Support>,
     /// How far the modes under these supports are certified.
     pub certify: Certify,
-    /// Whether the frequency response is compared.
-    pub response: bool,
+    /// Whether the frequency response is compared, and internal loads with it.
+    pub response: ResponseExtent,
     /// Whether anything that moves is compared.
     pub motion: Motion,
     /// Dofs up to which the statics of an interface without coordinates are compared dof by dof.
@@ -56,7 +67,11 @@ impl Plan {
             eta: 2.0 * scene.damping.unwrap_or_default().ratio,
             supports: supports.unwrap_or_default(),
             certify: job.run.certify,
-            response: is_compared(&weighed.response),
+            response: match (is_compared(&weighed.response), job.accepted().internal_load) {
+                (false, _) => ResponseExtent::NotCompared,
+                (true, None) => ResponseExtent::AtInterfaces,
+                (true, Some(_)) => ResponseExtent::WithInternalLoads,
+            },
             motion: if job.model.mass.is_some() { Motion::Compared } else { Motion::NotAsked },
             shown: if job.accepted().statics.is_some() { usize::MAX } else { SHOWN },
             not_compared: weighed.left_out(),

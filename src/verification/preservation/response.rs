@@ -6,6 +6,7 @@ use super::super::check::{Check, Limits};
 use super::super::evidence::Evidence;
 use super::extended::{Extended, Response};
 use super::interfaces::rotation_length;
+use super::internal_loads::FullLoads;
 use super::outcome::{ResponseComparison, ResponseSample};
 use super::pair_error::{PairError, magnitude, worst_pair};
 use super::samples;
@@ -14,7 +15,6 @@ use super::shift::shift;
 use crate::dense;
 use crate::eigen::Spectral;
 use crate::error::Result;
-use crate::factor::SolveOperator;
 use crate::number::quantity;
 
 /// How often the band is scanned: samples that were added may have taught the full model something.
@@ -22,35 +22,46 @@ const PASSES: usize = 3;
 /// Share of the largest error by which what a scan foresaw may miss what its samples then show.
 const SETTLED: f64 = 1e-3;
 
-/// The answers of the full model, for further reduced models to be compared with.
+/// The response of the full model at its samples.
 pub(super) struct FullResponse {
-    pub(super) samples_hz: Vec<f64>,
-    pub(super) answers: Vec<Response>,
+    samples_hz: Vec<f64>,
+    answers: Vec<Response>,
     eta: f64,
 }
 
+/// The answers of the full model, for further reduced models to be compared with.
+pub(super) struct Full<'a> {
+    pub(super) response: FullResponse,
+    /// Of its interior, where its internal loads are compared.
+    pub(super) loads: Option<FullLoads<'a>>,
+}
+
 /// The comparison and the values it rests on.
-pub(super) struct Compared {
+pub(super) struct Compared<'a> {
     pub(super) report: ResponseComparison,
-    pub(super) full: FullResponse,
+    pub(super) full: Full<'a>,
     /// Bound on the relative error of the full response at its worst sample, and that sample.
     uncertainty: (f64, f64),
 }
 
-/// Compares the response of all pairs of interface dofs over the band.
+/// Compares the response of all pairs of interface dofs over the band. With a reduction whose internal loads will be compared, samples lie
+/// at all of its resonances.
 ///
 /// # Errors
 /// A pencil that is not definite.
-pub(super) fn compared(
+pub(super) fn compared<'a>(
     evidence: &Evidence<'_>,
-    factor: &dyn SolveOperator,
+    loaded: Option<&'a Evidence<'a>>,
     band_hz: [f64; 2],
     eta: f64,
-) -> Result<Compared> {
+) -> Result<Compared<'a>> {
     let reduction = evidence.reduction;
     let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), shift(evidence)?)?;
-    let mut extended = Extended::new(evidence, factor, eta)?;
+    let mut extended = Extended::new(evidence, evidence.factor, eta)?;
     let mut samples_hz = samples::first(evidence, &reduced, band_hz);
+    if loaded.is_some() {
+        samples_hz = samples::with_resonances(evidence, &reduced, &samples_hz);
+    }
     let mut residuals = extended.settle(&samples_hz)?;
     let mut full = FullResponse::new(&extended, &samples_hz, eta);
     let (mut worst, mut at) = full.worst(evidence, &reduced);
@@ -71,22 +82,21 @@ pub(super) fn compared(
     let residual = residuals.iter().fold(0.0, |a, b| if dense::worse(*b, a) { *b } else { a });
     let least_known = (0..residuals.len()).fold(0, |a, b| if dense::worse(residuals[b], residuals[a]) { b } else { a });
     let name = |dof: usize| evidence.partition.name_of(evidence.partition.n_internal + dof);
-    Ok(Compared {
-        report: ResponseComparison {
-            boundary: "free".to_owned(),
-            damping: eta,
-            rotation_length: rotation_length(evidence.partition),
-            residual,
-            worst_pair: [name(worst.pair.1), name(worst.pair.0)],
-            worst_db: worst.decibel,
-            worst_at_hz: full.samples_hz[at],
-            peak_shift: peak_shift(evidence, &extended.spectral, &reduced, band_hz),
-            scan_step: step,
-            samples: full.shown(evidence, &reduced, worst.pair),
-        },
-        uncertainty: (full.uncertainty(&extended, least_known), full.samples_hz[least_known]),
-        full,
-    })
+    let report = ResponseComparison {
+        boundary: "free".to_owned(),
+        damping: eta,
+        rotation_length: rotation_length(evidence.partition),
+        residual,
+        worst_pair: [name(worst.pair.1), name(worst.pair.0)],
+        worst_db: worst.decibel,
+        worst_at_hz: full.samples_hz[at],
+        peak_shift: peak_shift(evidence, &extended.spectral, &reduced, band_hz),
+        scan_step: step,
+        samples: full.shown(evidence, &reduced, worst.pair),
+    };
+    let uncertainty = (full.uncertainty(&extended, least_known), full.samples_hz[least_known]);
+    let loads = loaded.map(|own| FullLoads::new(own, extended, &full.samples_hz, eta)).transpose()?;
+    Ok(Compared { report, uncertainty, full: Full { response: full, loads } })
 }
 
 impl FullResponse {
@@ -159,7 +169,7 @@ fn peak_shift(evidence: &Evidence<'_>, full: &Spectral, reduced: &Spectral, band
 }
 
 /// M-20 and M-21.
-pub(super) fn checks(compared: &Compared) -> [Check; 2] {
+pub(super) fn checks(compared: &Compared<'_>) -> [Check; 2] {
     let report = &compared.report;
     let [driven, observed] = &report.worst_pair;
     [

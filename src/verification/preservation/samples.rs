@@ -29,6 +29,13 @@ pub(super) fn first(evidence: &Evidence<'_>, reduced: &Spectral, band_hz: [f64; 
     merged(grid.chain(resonances).collect())
 }
 
+/// `samples` with every resonance of the reduced model between the first and the last.
+pub(super) fn with_resonances(evidence: &Evidence<'_>, reduced: &Spectral, samples: &[f64]) -> Vec<f64> {
+    let band = samples[0]..=samples[samples.len() - 1];
+    let resonances = elastic_hz(evidence, reduced).into_iter().filter(|hz| band.contains(hz));
+    merged(samples.iter().copied().chain(resonances).collect())
+}
+
 /// `samples` with peaks of the error, the elastic frequencies of the full model and the antiresonances at two driving points, which
 /// are the frequencies of the reduced model with the dof held.
 ///

@@ -18,6 +18,8 @@ use crate::eigen::Spectral;
 
 /// Steps in the width η f of a resonance or antiresonance. Half a step from its top the response is 1/√(1 + 1/16) of the peak: 0.3 dB.
 const STEPS_IN_A_PEAK: f64 = 4.0;
+/// Relative distance of points at most, however wide the damping makes a resonance: where responses cancel an error may be far narrower.
+const WIDEST_STEP: f64 = 0.02;
 /// Points of a scan at most; η below 1/200 needs more over two decades.
 const MAX_POINTS: usize = 4096;
 /// Points of a scan where its products are large.
@@ -107,24 +109,26 @@ impl Scan<'_> {
         (errors.concat(), dips.concat())
     }
 
-    /// The largest error on the way to where chords pass by zero, and its frequency.
+    /// The largest error next to where chords pass by zero, and its frequency. It need not lie where the response is smallest: between the
+    /// points that were passed it is looked for as any top is.
     fn followed(&self, [low, high]: [f64; 2]) -> (f64, f64) {
         let [mut low, mut high] = [low, high].map(|hz| self.point(hz));
-        let mut largest = (low.hz, 0.0);
+        let mut passed = vec![(low.hz, low.decibel()), (high.hz, high.decibel())];
         for _ in 0..CHORDS {
             let place = low.dip_to(&high).place.clamp(NEAREST, 1.0 - NEAREST);
             let next = self.point(low.hz + place * (high.hz - low.hz));
-            let error = next.decibel();
-            if dense::worse(error, largest.1) {
-                largest = (next.hz, error);
-            }
+            passed.push((next.hz, next.decibel()));
             if low.dip_to(&next).decibel > next.dip_to(&high).decibel {
                 high = next;
             } else {
                 low = next;
             }
         }
-        largest
+        passed.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let error = |at: usize| passed[at].1;
+        let at = (0..passed.len()).fold(0, |a, b| if dense::worse(error(b), error(a)) { b } else { a });
+        let top = self.top([passed[at.saturating_sub(1)].0, passed[(at + 1).min(passed.len() - 1)].0]);
+        if dense::worse(top.1, error(at)) { top } else { passed[at] }
     }
 
     fn n_steps(&self, decades: f64) -> usize {
@@ -132,7 +136,8 @@ impl Scan<'_> {
         // Real and imaginary part of n_B × r times r × n_B, for both models.
         let flops = 4.0 * n_b * n_b * (self.full.n() + self.reduced.n()) as f64;
         let dear = ((MAX_FLOPS / flops) as usize).max(MIN_POINTS);
-        ((STEPS_IN_A_PEAK * decades / self.eta).ceil() as usize).clamp(1, MAX_POINTS.min(dear))
+        let step = (self.eta / STEPS_IN_A_PEAK).min(WIDEST_STEP);
+        ((decades / step).ceil() as usize).clamp(1, MAX_POINTS.min(dear))
     }
 
     fn point(&self, hz: f64) -> Point {
@@ -147,23 +152,28 @@ impl Scan<'_> {
     }
 
     /// The frequency in an interval at which the error is largest, by golden section, and the error there.
-    fn top(&self, [mut low, mut high]: [f64; 2]) -> (f64, f64) {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-        let mut points = inner(low, high).map(|hz| (hz, self.decibel(hz)));
-        for _ in 0..SECTIONS {
-            if points[0].1 > points[1].1 {
-                high = points[1].0;
-                let left = inner(low, high)[0];
-                points = [(left, self.decibel(left)), points[0]];
-            } else {
-                low = points[0].0;
-                let right = inner(low, high)[1];
-                points = [points[1], (right, self.decibel(right))];
-            }
-        }
-        if points[0].1 > points[1].1 { points[0] } else { points[1] }
+    fn top(&self, [low, high]: [f64; 2]) -> (f64, f64) {
+        top([low, high], &|hz| self.decibel(hz))
     }
+}
+
+/// Where in an interval a value is largest, and the value, by golden section.
+pub(super) fn top([mut low, mut high]: [f64; 2], value: &dyn Fn(f64) -> f64) -> (f64, f64) {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+    let mut points = inner(low, high).map(|hz| (hz, value(hz)));
+    for _ in 0..SECTIONS {
+        if points[0].1 > points[1].1 {
+            high = points[1].0;
+            let left = inner(low, high)[0];
+            points = [(left, value(left)), points[0]];
+        } else {
+            low = points[0].0;
+            let right = inner(low, high)[1];
+            points = [points[1], (right, value(right))];
+        }
+    }
+    if points[0].1 > points[1].1 { points[0] } else { points[1] }
 }
 
 /// Both responses at a frequency.

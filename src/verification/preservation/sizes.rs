@@ -1,10 +1,11 @@
 //! What a smaller basis would cost in accuracy, and what the size that was chosen asks of an integrator.
 
 use super::super::evidence::Evidence;
+use super::leading::leading;
 use super::outcome::{HighestFrequency, SizeError};
 use super::reduced::quotients;
 use super::reference::Reference;
-use super::response::FullResponse;
+use super::response::Full;
 use super::shift::shift;
 use crate::basis::DynamicCoordinate;
 use crate::dense;
@@ -25,7 +26,7 @@ const STEPS_PER_PERIOD: f64 = 20.0;
 pub(super) fn size_errors(
     evidence: &Evidence<'_>,
     references: &[Reference],
-    response: Option<&FullResponse>,
+    response: Option<&Full<'_>>,
     band_hz: [f64; 2],
 ) -> Result<Vec<SizeError>> {
     if references.is_empty() && response.is_none() {
@@ -49,13 +50,12 @@ pub(super) fn n_modes(evidence: &Evidence<'_>) -> usize {
 pub(super) fn size_error(
     evidence: &Evidence<'_>,
     references: &[Reference],
-    response: Option<&FullResponse>,
+    response: Option<&Full<'_>>,
     (n_modes, band_hz): (usize, [f64; 2]),
 ) -> Result<SizeError> {
     let n = evidence.partition.n_interface() + n_columns(evidence, n_modes);
-    let k = evidence.reduction.stiffness.submatrix(0, 0, n, n);
-    let smaller = evidence.reduction.modal_mass.as_ref().map(|modal| modal.of_leading(n)).transpose()?;
-    let m = smaller.as_ref().map_or_else(|| evidence.reduction.mass.submatrix(0, 0, n, n), |mass| mass.as_ref());
+    let (k, m) = leading(evidence, n)?;
+    let (k, m) = (k.as_ref(), m.as_ref());
     let mut frequency_error = 0.0;
     for reference in references {
         let reduced = quotients(evidence, reference, k, m)?;
@@ -65,10 +65,12 @@ pub(super) fn size_error(
         }
     }
     let response_error_db = match response {
-        Some(full) => Some(full.worst_decibel(evidence, &Spectral::of(k, m, shift(evidence)?)?)),
+        Some(full) => Some(full.response.worst_decibel(evidence, &Spectral::of(k, m, shift(evidence)?)?)),
         None => None,
     };
-    Ok(SizeError { n_modes, n_reduced: n, frequency_error, response_error_db })
+    let loads = response.and_then(|full| full.loads.as_ref());
+    let internal_load_error = loads.map(|loads| loads.worst(n)).transpose()?;
+    Ok(SizeError { n_modes, n_reduced: n, frequency_error, response_error_db, internal_load_error })
 }
 
 fn is_mode(coordinate: &DynamicCoordinate) -> bool {

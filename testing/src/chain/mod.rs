@@ -8,7 +8,7 @@ mod twin;
 
 use supel::basis::{Basis, DynamicColumns, retained_columns};
 use supel::constraint::FreeAtZero;
-use supel::constraint::{ConstraintModes, constraint_modes};
+use supel::constraint::{ConstraintModes, constraint_modes, with_mechanisms};
 use supel::coordinates;
 use supel::dofs::{Direction, Dof, DofMap, Nodes};
 use supel::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes};
@@ -16,7 +16,9 @@ use supel::error::Error;
 use supel::factor::Cholesky;
 use supel::input::{Digits, Input, MatrixInput};
 pub use supel::job::Method;
-use supel::job::{Boundary, Coupling, Eigensolver, InterfaceJob, ModeSelection, NodeSelection, ReductionJob};
+use supel::job::{
+    Boundary, Coupling, Eigensolver, InterfaceJob, ModeOrigin, ModeSelection, NodeSelection, ReductionJob,
+};
 use supel::model::Model;
 use supel::modes::{Component, Retained};
 use supel::partition::{self, Partition};
@@ -131,6 +133,9 @@ pub fn reduce(
     let analysis = partition.analysis()?;
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof))?;
     let constraint = constraint_modes(&partition, &factor, &rigid);
+    let (rigid, _) = with_mechanisms(&partition, &constraint, rigid)?;
+    // Guyan's method keeps none.
+    let count = if method.modes() == ModeOrigin::Computed { count } else { 0 };
     let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let precision = partition.precision;
     let boundary = method.boundary();

@@ -84,6 +84,7 @@ pub(crate) fn preservation() -> Preservation {
             statics("foot", &["ux of node 812", "uy of node 812", "uz of node 812"]),
         ],
         response: Some(response()),
+        internal_loads: None,
         size_errors: (0..=10).map(size_error).collect(),
         highest: Some(HighestFrequency { frequency_hz: 61_234.5, explicit_step_s: 5.2e-6, resolving_step_s: 8.17e-7 }),
         not_compared: vec!["static stiffness at rim: it has 96 dofs, of which 24 are shown at most".to_owned()],
@@ -204,5 +205,6 @@ fn size_error(step: usize) -> SizeError {
         n_reduced: 15 + step * 5,
         frequency_error: 0.4 * (-(step as f64) * 0.9).exp() * (0.8 + 0.4 * noise(step)),
         response_error_db: Some(22.0 * (-(step as f64) * 0.7).exp() * (0.8 + 0.4 * noise(step + 9))),
+        internal_load_error: None,
     }
 }

@@ -5,7 +5,9 @@ mod document;
 #[cfg(feature = "hdf5")]
 mod exudyn;
 mod files;
+mod foreign_files;
 mod found;
+mod frd;
 mod left_out;
 mod reduced;
 mod refused;

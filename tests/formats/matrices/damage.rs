@@ -8,7 +8,7 @@ use supel::input::read;
 use super::{fixture, job, stiffness};
 
 /// One small file of every kind.
-const FILES: [&str; 16] = [
+const FILES: [&str; 17] = [
     "k_csr.npz",
     "k_csc.npz",
     "k_dia.npz",
@@ -25,10 +25,11 @@ const FILES: [&str; 16] = [
     "small.bdf",
     "k.rsa",
     "k_labels.mtx",
+    "user_element.mtx",
 ];
 
 /// Files of lines, in which a cut between two entries leaves a smaller matrix.
-const OF_LINES: [&str; 3] = ["k_large.pch", "small.bdf", "k_labels.mtx"];
+const OF_LINES: [&str; 4] = ["k_large.pch", "small.bdf", "k_labels.mtx", "user_element.mtx"];
 
 fn written(folder: &Path, name: &str, content: &[u8]) -> PathBuf {
     let path = folder.join(name);

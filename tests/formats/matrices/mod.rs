@@ -13,6 +13,7 @@ mod hdf5;
 mod oracle;
 mod reading;
 mod refused;
+mod user_element;
 
 use std::path::{Path, PathBuf};
 

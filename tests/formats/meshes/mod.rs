@@ -1,6 +1,8 @@
 //! Meshes in decks, text and binary files: nodes, groups and faces as their programs mean them, and damaged files.
 
 mod calculix;
+#[cfg(feature = "hdf5")]
+mod converted;
 mod damage;
 mod decks;
 mod examples;

@@ -73,7 +73,8 @@ fn i_04_asymmetry_by_its_size() {
     let doubtful = askew(1e-9);
     assert_done(&doubtful, &reduce_chain(&doubtful), &["W-UNSYMMETRIC"]);
     let wrong = askew(1e-4);
-    let parts = ["row 3, column 2", "1.0e-4", "follower forces, gyroscopic and friction terms"];
+    let parts =
+        ["row 3, column 2", "1.0e-4", "follower forces, gyroscopic and friction terms", "[[matrix]] in the job"];
     assert_refused(&wrong, &reduce_chain(&wrong), "E-UNSYMMETRIC", &parts);
 }
 

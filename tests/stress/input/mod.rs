@@ -3,6 +3,7 @@
 mod coordinates;
 mod costs;
 mod damage;
+mod further_files;
 mod maps;
 mod matrices;
 mod mutations;

@@ -1,4 +1,4 @@
-//! Paths and files that are none: I-21 and I-23.
+//! Paths and files that are none: I-23, and of I-21 what a model has no key for.
 
 use std::path::Path;
 
@@ -15,9 +15,10 @@ fn stiffness_path_refused(place: &Place, path: &str, code: &str, parts: &[&str])
     assert_refused(place, &supel(&["reduce", &place.text("job.toml")]), code, parts);
 }
 
-/// Damping and gyroscopic matrices are not built: a job that names one is refused, not half obeyed.
+/// Damping and gyroscopic matrices have tables of their own: a key of the model is refused, not half obeyed. What the tables do is in
+/// `tests/further_matrices`.
 #[test]
-fn i_21_matrices_that_are_not_used() {
+fn i_21_matrices_are_no_keys_of_the_model() {
     let place = chain();
     for key in ["damping", "gyroscopic"] {
         stiffness_path_refused(

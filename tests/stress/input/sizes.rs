@@ -4,8 +4,13 @@ use supel::cli::ExitCode;
 use supel_models::model::Entry;
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring, spring_spectrum};
 
+use supel::error::Error;
+use supel::verification::check::Verdict;
+
 use super::{CHAIN, assert_done, assert_refused, chain};
+use crate::chain::{direct, rows};
 use crate::place::{Ended, Place, assert_close, frequencies_hz};
+use crate::program::{ALL, Case, lines};
 
 fn reduce(model: &Model, rest: &str) -> (Place, Ended) {
     let place = Place::with(model);
@@ -36,6 +41,33 @@ fn i_24_few_masses() {
     }
     let (place, ended) = reduce(&spring(2, Ends::Fixed), "--interface end=rows:0 --method herting --modes 5");
     assert_done(&place, &ended, &["W-FEWER-MODES"]);
+}
+
+/// The smallest models by every method: a sound superelement of as many coordinates as there are motions, or an error by name.
+#[test]
+fn i_24_smallest_models_by_every_method() {
+    let cube = brick([1, 1, 1], [1.0, 1.0, 1.0], &Material::STEEL_SI);
+    let nodes = [[0.0; 3], [1.0, 0.0, 0.0]];
+    let beam = frame(&nodes, &[[0, 1]], &Section::round(0.05), &Material::STEEL_SI, Inertia::Consistent);
+    let chains = [2, 3, 6, 12].map(|n| (format!("{n} masses"), spring(n, Ends::Free), rows("end", &[0])));
+    let solids =
+        [("cube".to_owned(), cube, direct("foot", &[1, 2, 3])), ("beam".to_owned(), beam, direct("foot", &[1]))];
+    for method in ALL {
+        for (name, model, interface) in chains.iter().chain(&solids) {
+            let case = Case::new(model, std::slice::from_ref(interface)).method(method).count(2);
+            match case.run() {
+                Ok(outcome) => {
+                    assert_eq!(lines(&outcome, Verdict::Fail), [""; 0], "{name}, {method}");
+                    assert!(outcome.report.body.reduction.n_reduced <= model.n, "{name}, {method}");
+                }
+                Err(error) => {
+                    println!("{name}, {method}: {error}");
+                    assert!(Error::CODES.iter().any(|entry| entry.code == error.code()), "{name}, {method}: {error}");
+                    assert!(error.to_string().contains(" – "), "{name}, {method}: {error}");
+                }
+            }
+        }
+    }
 }
 
 /// A single mass, held by springs or free: there is nothing to reduce.

@@ -5,7 +5,7 @@ use supel_models::transform::{dof_scaled, scaled};
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
 
 use crate::chain::{direct, rows};
-use crate::program::{Case, METHODS, checks, eigensolvers, eigenvalues, lines, worst_ratio};
+use crate::program::{ALL, Case, METHODS, checks, eigensolvers, eigenvalues, lines, motions, worst_ratio};
 use supel::verification::check::Verdict;
 
 fn block() -> Model {
@@ -58,6 +58,45 @@ fn c_01_units_of_stiffness_and_mass() {
     let error =
         Case::new(&extreme, &pins).refused(&["inertia-relief modes", "range of double precision", "other units"]);
     assert!(matches!(error, Error::UnitRange { .. }), "{error}");
+}
+
+/// The interface of every method in other units: to the bit for powers of two, to rounding of K and M otherwise.
+#[test]
+fn c_01_units_by_every_method() {
+    let pins = [direct("pins", &[1, 12, 28])];
+    // Lengths of the columns of a file do not matter, so that one file serves all units.
+    let shapes = motions(&block(), 12);
+    for method in ALL {
+        let reduced = |a: f64, b: f64| {
+            let case = Case::new(&scaled(&block(), a, b), &pins).method(method);
+            Case { files: vec![("V.mtx", shapes.clone())], ..case }.accepted()
+        };
+        let reference = reduced(1.0, 1.0);
+        let expected = reference.superelement.tensors();
+        let at = || (0..9).flat_map(|i| (0..9).map(move |j| (i, j)));
+        for (p, q) in [(40, -40), (-3, 20)] {
+            let (a, b) = (2f64.powi(p), 2f64.powi(q));
+            let outcome = reduced(a, b);
+            let found = outcome.superelement.tensors();
+            assert!(at().all(|at| found.stiffness[at] == a * expected.stiffness[at]), "{method}: K by 2^{p}");
+            assert!(at().all(|at| found.mass[at] == b * expected.mass[at]), "{method}: M by 2^{q}");
+        }
+        for (a, b) in [(1e12, 1e-12), (1e-12, 1e12), (1e12, 1e12)] {
+            let outcome = reduced(a, b);
+            let found = outcome.superelement.tensors();
+            for (name, unit, found, expected) in
+                [("K", a, &found.stiffness, &expected.stiffness), ("M", b, &found.mass, &expected.mass)]
+            {
+                for (i, j) in at() {
+                    let size = (expected[(i, i)] * expected[(j, j)]).sqrt();
+                    let error = (found[(i, j)] / unit - expected[(i, j)]).abs();
+                    assert!(error <= 1e-12 * size, "{method}, {a:e}, {b:e}: {name}({i}, {j}) {error:e} of {size:e}");
+                }
+            }
+            let back: Vec<f64> = eigenvalues(&outcome).iter().map(|found| found * (b / a)).collect();
+            assert!(worst_ratio(&back, &eigenvalues(&reference)) <= 1e-12, "{method}, {a:e}, {b:e}");
+        }
+    }
 }
 
 /// A frame with its rotations in milliradian, and at lengths from micrometre to thousand kilometres.

@@ -7,13 +7,13 @@ use supel_models::{Ends, HexMesh, Material, Model, spectrum, spring};
 use super::{CORNERS, block};
 use crate::chain::{direct, interface, rows};
 use crate::program::{
-    Case, METHODS, checks, eigensolvers, eigenvalues, lines, message_of, n_rigid, warnings, worst_ratio,
+    ALL, Case, METHODS, checks, eigensolvers, eigenvalues, lines, message_of, n_rigid, warnings, worst_ratio,
 };
 use supel::job::{Coupling, NodeSelection};
 use supel::verification::check::Verdict;
 
-/// The rank test comes before the factor and names the motion; taken out, the factor fails later with another error, or
-/// not at all.
+/// The rank test comes before the factor and names the motion and the ways on; taken out, the factor fails later with another
+/// error, or not at all. Rubin's method needs no such interface.
 #[test]
 fn s_20_interface_that_leaves_a_motion_free() {
     for (labels, rank, words) in [
@@ -29,9 +29,17 @@ fn s_20_interface_that_leaves_a_motion_free() {
             "only 5 of the 6 rigid-body motions; free: rotation about the axis through (0.0000, 0.0000, 0.0000) along",
         ),
     ] {
-        for method in METHODS {
+        for method in ALL {
             let case = Case::new(&block(), &[direct("pins", &labels)]).method(method);
-            let error = case.refused(&[words, "add interface nodes off that axis or give the nodes rotations"]);
+            if method == "rubin" {
+                // Attachment modes stand in the place of constraint modes, next to amplitudes of rigid-body motion.
+                let file = case.verified();
+                let n_modes = file.tensors().frequencies.len();
+                assert!(n_modes >= 6, "{labels:?}");
+                assert_eq!((file.n_rigid(), file.n_coordinates()), (6, 3 * labels.len() + 6 + n_modes), "{labels:?}");
+                continue;
+            }
+            let error = case.refused(&[words, "add interface nodes off that axis, give the nodes rotations", "rubin"]);
             assert!(matches!(error, Error::InterfaceRank { rank: found, n_rigid: 6, .. } if found == rank), "{error}");
             if rank == 5 {
                 // The three nodes lie on the x axis.
@@ -116,12 +124,18 @@ fn s_23_no_interface_is_a_modal_model() {
 fn s_24_every_dof_interface_keeps_the_matrices() {
     // A power of two and an odd factor, so that scaling has something to undo.
     let model = scaled(&block(), 1.7, 0.3);
-    for method in METHODS {
+    for method in ALL {
         let outcome = Case::new(&model, &[direct("all", &model.labels)]).method(method).accepted();
         let tensors = outcome.superelement.tensors();
         assert_eq!(tensors.stiffness.rows(), model.n, "{method}");
+        let is_macneal = method == "macneal";
+        // MacNeal's mass is that of modes and rigid-body motion alone, with an interior or without.
+        assert_eq!(outcome.report.body.reduction.mass_rank, is_macneal.then_some(6 + eigenvalues(&outcome).len()));
         for (name, matrix, entries) in [("K", &tensors.stiffness, &model.stiffness), ("M", &tensors.mass, &model.mass)]
         {
+            if is_macneal && name == "M" {
+                continue;
+            }
             let mut full = vec![0.0f64; model.n * model.n];
             entries.iter().for_each(|(i, j, value)| full[*i as usize * model.n + *j as usize] = *value);
             for i in 0..model.n {

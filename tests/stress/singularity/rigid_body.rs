@@ -5,12 +5,16 @@ use supel::dofs::Direction;
 use supel::error::Error;
 use supel::job::InterfaceJob;
 use supel::rigid::{self, RigidSource};
+use supel::verification::check::Verdict;
 use supel_models::transform::{grounded, join, supported, translated};
 use supel_models::{Inertia, Material, Model, Section, brick, frame, membrane, spectrum};
 
 use super::{CORNERS, block};
 use crate::chain::{direct, rigid_of};
-use crate::program::{Case, METHODS, bars, checks, eigensolvers, eigenvalues, lines, message_of, n_rigid, warnings};
+use crate::program::{
+    ALL, Case, FREE, METHODS, bars, checks, eigensolvers, eigenvalues, lines, message_of, n_rigid, warnings,
+    worst_ratio,
+};
 
 /// Both eigensolvers give the dense elastic spectrum, to the rounding of the dense solution.
 #[track_caller]
@@ -91,7 +95,7 @@ fn s_04_every_body_brings_its_own_zero_modes() {
     let pair = join(&block(), &translated(&block(), [5.0, 0.0, 0.0]), &[]);
     let on_both = [direct("first", &CORNERS), direct("second", &CORNERS.map(|label| label + 36))];
     agrees_with_dense(&pair, &on_both, 12);
-    for method in METHODS {
+    for method in ALL {
         let outcome = Case::new(&pair, &on_both).method(method).clean();
         assert_eq!((n_rigid(&outcome), outcome.report.body.model.n_bodies), (12, 2), "{method}");
         let error =
@@ -104,7 +108,7 @@ fn s_04_every_body_brings_its_own_zero_modes() {
     let cube = brick([1, 1, 1], [1.0; 3], &Material::UNIT);
     let eight = (1..8).fold(cube.clone(), |all, i| join(&all, &translated(&cube, [2.0 * f64::from(i), 0.0, 0.0]), &[]));
     let labels: Vec<i64> = (0..8).flat_map(|body| [1, 4, 6].map(|label| label + 8 * body)).collect();
-    for method in METHODS {
+    for method in ALL {
         assert_eq!(n_rigid(&Case::new(&eight, &[direct("pins", &labels)]).method(method).accepted()), 48, "{method}");
     }
 }
@@ -170,6 +174,34 @@ fn s_10_rotation_without_inertia_is_kept_out_of_inertia_relief() {
     }
 }
 
+/// Inertia relief is built on the five motions with inertia: no number is lost, and their accelerations are answered exactly. Methods that
+/// keep free modes are refused, since the sixth motion has no mass.
+#[test]
+fn s_10_inertia_relief_of_the_motions_with_inertia() {
+    let nodes: Vec<[f64; 3]> = (0..6).map(|i| [f64::from(i), 0.0, 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (0..5).map(|i| [i, i + 1]).collect();
+    let straight = frame(&nodes, &edges, &Section::round(0.1), &Material::UNIT, Inertia::LumpedTranslations);
+    for method in ["craig-bampton", "guyan"] {
+        let case = Case::new(&straight, &[direct("ends", &[1, 6])]).method(method).count(3);
+        let outcome = Case { inertia_relief: true, ..case }.accepted();
+        assert_eq!(outcome.report.body.reduction.n_inertia_relief, 5, "{method}");
+        let deflection = checks(&outcome, "M-18");
+        let is_exact = |check: &&supel::verification::check::Check| check.value <= 1e-9;
+        assert!(deflection.iter().all(is_exact), "{method}: {deflection:?}");
+        assert!(outcome.report.body.checks.iter().all(|check| check.value.is_finite()), "{method}");
+        let tensors = outcome.superelement.tensors();
+        let is_number = |matrix: &supel_runtime::Matrix| {
+            (0..matrix.rows()).all(|i| (0..matrix.cols()).all(|j| matrix[(i, j)].is_finite()))
+        };
+        assert!(is_number(&tensors.stiffness) && is_number(&tensors.mass), "{method}");
+    }
+    for method in FREE {
+        let case = Case::new(&straight, &[direct("ends", &[1, 6])]).method(method).count(3);
+        let error = Case { inertia_relief: true, ..case }.refused(&["moves no mass", "rx", "rotary inertia"]);
+        assert!(matches!(error, Error::MasslessFreeMotion { .. }), "{method}: {error}");
+    }
+}
+
 #[test]
 fn s_11_held_component_has_no_rigid_body_modes() {
     let block = block();
@@ -191,14 +223,14 @@ fn s_12_partly_held_component_keeps_what_is_free() {
     for (held, free) in [(vec![1, 2], 1), (vec![1], 3)] {
         let model = supported(&block(), |(label, _)| held.contains(&label));
         agrees_with_dense(&model, &[direct("pins", &[12, 28, 36])], free);
-        for method in METHODS {
-            let outcome = Case::new(&model, &[direct("pins", &[12, 28, 36])]).method(method).accepted();
-            assert_eq!(
-                n_rigid(&outcome),
-                free,
-                "{method}: {:?}",
-                lines(&outcome, supel::verification::check::Verdict::Warn)
-            );
+        let pins = [direct("pins", &[12, 28, 36])];
+        let lambda = eigenvalues(&Case::new(&model, &pins).accepted());
+        for method in ALL {
+            let outcome = Case::new(&model, &pins).method(method).accepted();
+            assert_eq!(n_rigid(&outcome), free, "{method}: {:?}", lines(&outcome, Verdict::Warn));
+            if FREE.contains(&method) {
+                assert!(worst_ratio(&eigenvalues(&outcome), &lambda) <= 1e-13, "{method}");
+            }
         }
     }
 }

@@ -1,0 +1,49 @@
+//! K̂ and M̂ of a superelement of another program, on common rows.
+
+use std::path::Path;
+
+use super::common_rows::{RowLabels, take_notes};
+use super::format::{MatrixSource, ReadMatrix};
+use super::member::split_member;
+use super::model_files::read_matrix;
+use super::{Allowance, MatrixInput, MatrixRole};
+use crate::dofs::DofMap;
+use crate::error::Result;
+
+/// The reduced matrices of a superelement.
+#[derive(Clone, Debug)]
+pub struct ReducedPair {
+    /// K̂.
+    pub stiffness: MatrixInput,
+    /// M̂.
+    pub mass: MatrixInput,
+    /// What each row is, where both matrices name theirs: none for amplitudes and scalar points.
+    pub dofs: Option<DofMap>,
+}
+
+impl ReducedPair {
+    /// Reads both matrices. Where they name their rows these are in the order of nodes and directions, and have a row for each name that
+    /// either has.
+    ///
+    /// # Errors
+    /// Those of the readers; [`crate::error::Error::RowsUnnamed`] where only one of them names its rows.
+    pub fn read(stiffness: &Path, mass: &Path, allowance: &Allowance) -> Result<Self> {
+        let read = |path: &Path| -> Result<ReadMatrix> {
+            let (file, member) = split_member(path);
+            let role = MatrixRole::Reduced;
+            read_matrix(&MatrixSource {
+                file,
+                member,
+                layout: None,
+                role,
+                triangle: None,
+                stated_digits: None,
+                allowance,
+            })
+        };
+        let (stiffness, mass) = (read(stiffness)?, read(mass)?);
+        let labels = RowLabels::common(&[&stiffness, &mass], None)?;
+        let placed = |matrix| Ok(take_notes(labels.placed(matrix)?, &mut Vec::new()).0);
+        Ok(Self { stiffness: placed(stiffness)?, mass: placed(mass)?, dofs: labels.dof_map() })
+    }
+}

@@ -1,0 +1,150 @@
+//! The files that superelements of other programs come in: whichever it is, the answer is the same.
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel_testing::place::{Place, steel_brick, supel};
+
+#[cfg(feature = "hdf5")]
+use super::superelement::failed;
+use super::superelement::{Foreign, certify, interface};
+
+/// What is said of a superelement, without digests.
+fn answer(place: &Place, [stiffness, mass]: [&str; 2]) -> Value {
+    let flags = ["--reduced-stiffness", stiffness, "--reduced-mass", mass];
+    let paths = ["K.mtx", "M.mtx", "psi.mtx", "dofs.txt", "nodes.csv"].map(|name| place.text(name));
+    let [k, m, psi, dofs, nodes] = &paths;
+    let args = [&["certify", k, m, psi, "--dofs", dofs, "--nodes", nodes, "--json"], flags.as_slice()].concat();
+    let mut found: Value = serde_json::from_str(&supel(&args).expect(ExitCode::Done).out).expect("JSON");
+    found["superelement"] = Value::Null;
+    found
+}
+
+/// A coordinate in a file that names its rows: its number, its node and its degree of freedom.
+type Named = (usize, i64, u8);
+
+/// Coordinates of a superelement whose last ones are the interface, in another order than that of its basis: nodes backwards, amplitudes as
+/// scalar points of high numbers behind them.
+fn named(n_modes: usize) -> Vec<Named> {
+    let model = steel_brick();
+    let rows = interface();
+    let mut of_interface: Vec<Named> = (0..rows.len())
+        .map(|at| {
+            let (node, direction) = model.dofs[rows[at]];
+            (n_modes + at, node, direction + 1)
+        })
+        .collect();
+    of_interface.sort_by_key(|(_, node, dof)| (-node, *dof));
+    of_interface.into_iter().chain((0..n_modes).map(|at| (at, 9001 + at as i64, 1))).collect()
+}
+
+/// Whether a file names the nodes of its rows.
+#[derive(PartialEq)]
+enum Nodes {
+    Named,
+    Unnamed,
+}
+
+/// `*SUBSTRUCTURE MATRIX OUTPUT` of these coordinates, each with a node of its own, or without names.
+fn user_element(foreign: &Foreign, order: &[Named], nodes: Nodes) -> String {
+    let mut text = format!("**\n** GENERATION OF SUBSTRUCTURE\n*USER ELEMENT,NODES={:>11},LINEAR\n", order.len());
+    if nodes == Nodes::Named {
+        text += "** ELEMENT NODES\n";
+        for line in order.chunks(10) {
+            let nodes: Vec<String> = line.iter().map(|(_, node, _)| format!("{node:>10}")).collect();
+            text += &format!("**{},\n", nodes.join(","));
+        }
+    }
+    for (at, (_, _, dof)) in order.iter().enumerate() {
+        text += &if at == 0 { format!("{dof:>10}\n") } else { format!("{:>10},{dof:>10}\n", at + 1) };
+    }
+    for (kind, matrix) in [("STIFFNESS", &foreign.stiffness), ("MASS", &foreign.mass)] {
+        text += &format!("*MATRIX,TYPE={kind}\n");
+        for j in 0..order.len() {
+            let entry = |i: &Named| 0.5 * (matrix[(i.0, order[j].0)] + matrix[(order[j].0, i.0)]);
+            let values: Vec<String> = order[..=j].iter().map(|i| format!("{:e},", entry(i))).collect();
+            values.chunks(4).for_each(|line| text += &(line.concat() + "\n"));
+        }
+    }
+    text
+}
+
+/// `*MATRIX OUTPUT, FORMAT=MATRIX INPUT`: a line for each pair of rows.
+fn labels(matrix: &faer::Mat<f64>, order: &[Named]) -> String {
+    let mut text = String::new();
+    for (at, (i, of_i, dof_i)) in order.iter().enumerate() {
+        for (j, of_j, dof_j) in &order[..=at] {
+            let value = 0.5 * (matrix[(*i, *j)] + matrix[(*j, *i)]);
+            text += &format!("{of_i}, {dof_i}, {of_j}, {dof_j}, {value:e}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn text_files_of_abaqus_give_the_same_answer_in_any_order_of_rows() {
+    let n_modes = 12;
+    let foreign = Foreign::craig_bampton(&steel_brick(), &interface(), n_modes);
+    let place = Place::with(&steel_brick());
+    foreign.write(&place);
+    let mut expected: Value =
+        serde_json::from_str(&certify(&place, "--json").expect(ExitCode::Done).out).expect("JSON");
+    expected["superelement"] = Value::Null;
+    let order = named(n_modes);
+    place.write("named.mtx", user_element(&foreign, &order, Nodes::Named).as_bytes());
+    place.write("k.txt", labels(&foreign.stiffness, &order).as_bytes());
+    place.write("m.txt", labels(&foreign.mass, &order).as_bytes());
+    let named = place.text("named.mtx");
+    for files in [[named.clone() + ":STIFFNESS", named + ":MASS"], [place.text("k.txt"), place.text("m.txt")]] {
+        let mut found = answer(&place, [&files[0], &files[1]]);
+        let notes = found["notes"].as_array_mut().expect("notes");
+        let told = notes.pop().expect("a note").to_string();
+        assert!(told.contains("12 rows of K̂ and M̂ were put to the columns"), "{told}");
+        assert_eq!(found, expected, "{files:?}");
+    }
+    let in_order: Vec<_> = (0..order.len()).map(|at| (at, 0, 1)).collect();
+    place.write("unnamed.mtx", user_element(&foreign, &in_order, Nodes::Unnamed).as_bytes());
+    let unnamed = place.text("unnamed.mtx");
+    assert_eq!(answer(&place, [&(unnamed.clone() + ":stiffness"), &(unnamed + ":mass")]), expected);
+}
+
+fn root(name: &str) -> String {
+    format!("{}/fixtures/results/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// What Exudyn made of two nodes at each end of a free bar, by Hurty, Craig and Bampton, in the three forms that it saves.
+#[cfg(feature = "hdf5")]
+#[test]
+fn a_superelement_of_exudyn_is_certified_in_every_form() {
+    let [k, m] = ["stiffnessMatrix", "massMatrix"].map(|name| root(&format!("exudyn_free_bar.hdf5:/{name}")));
+    let certified = |file: &str| {
+        let [psi, khat, mhat] =
+            ["modeBasis", "stiffnessMatrixReduced", "massMatrixReduced"].map(|name| format!("{file}{name}"));
+        let args = ["certify", &k, &m, &psi, "--reduced-stiffness", &khat, "--reduced-mass", &mhat, "--json"];
+        let mut found: Value = serde_json::from_str(&supel(&args).expect(ExitCode::Done).out).expect("JSON");
+        found["superelement"] = Value::Null;
+        found
+    };
+    let found = certified(&root("exudyn_part.hdf5:/"));
+    assert_eq!((&found["n_coordinates"], &found["n_interface"]), (&20.into(), &12.into()), "{found}");
+    assert_eq!(failed(&found), Vec::new(), "{found}");
+    assert_eq!(certified(&root("exudyn_part.npz:")), found);
+    assert_eq!(certified(&root("exudyn_part.npy:")), found);
+}
+
+#[test]
+fn arrays_that_are_not_there_are_named() {
+    let place = Place::with(&steel_brick());
+    let [k, m] = ["K.mtx", "M.mtx"].map(|name| place.text(name));
+    for (result, code, told) in [
+        ("exudyn_part.npy:psi", "E-NO-SUCH-MATRIX", "modeBasis"),
+        ("exudyn_part.npy:postProcessingModes", "E-MATRIX", "Python objects"),
+        ("exudyn_part.npy:modeBasis", "E-MODES-ROWS", "351 rows"),
+        ("exudyn_part.npz:modeBasis", "E-MODES-ROWS", "351 rows"),
+        ("exudyn_part.npz:psi", "E-NO-SUCH-MATRIX", "modeBasis"),
+        ("exudyn_part.npz", "E-MATRIX-AMBIGUOUS", "modeBasis"),
+        ("exudyn_part.npz:postProcessingModes", "E-", "Python objects"),
+    ] {
+        let ended = supel(&["certify", &k, &m, &root(result)]).expect(ExitCode::InputData);
+        assert!(ended.err.contains(code) && ended.err.contains(told), "{result}: {}", ended.err);
+    }
+}

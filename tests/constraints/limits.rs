@@ -1,0 +1,137 @@
+//! Constraints against what they stand for: the saddle point of their multipliers, and penalties without end.
+
+use std::f64::consts::TAU;
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+use supel::cli::ExitCode;
+use supel_models::Model;
+use supel_testing::place::{Place, assert_close, frequencies_hz};
+
+use crate::model::{labels_at, tied_halves};
+use crate::{Case, Rows, eigenvalues};
+
+const HERTING: &str = r#"method = "herting", modes = { count = 6 }"#;
+/// Modes that are compared.
+const N: usize = 6;
+
+/// Two halves of a block with duplicate nodes, tied one by one.
+fn halves() -> Case {
+    let (model, rows) = tied_halves([2, 2, 2], [2, 2, 2]);
+    Case::new(model, rows)
+}
+
+/// The interface of the halves.
+fn ends(case: &Case) -> String {
+    let labels = labels_at(&case.model, &[[0.0, 0.0, 0.0], [0.0, 0.31, 0.0], [1.0, 0.31, 0.23], [1.0, 0.0, 0.115]]);
+    format!("{{ name = \"ends\", nodes = {labels:?} }}")
+}
+
+/// λ of the saddle pencil [K Gᵀ; G 0], [M 0; 0 0], ascending: θ = 1/(λ + α) are the eigenvalues of Lᵀ A L, M = L Lᵀ, with A the leading block of
+/// the inverse of [K + αM, Gᵀ; G, 0]. Rows of G are as large as K.
+fn saddle([k, m, g]: [&Mat<f64>; 3], alpha: f64) -> Vec<f64> {
+    let (n, n_g, size) = (k.nrows(), g.nrows(), k.norm_max());
+    let entry = |i: usize, j: usize| match (i < n, j < n) {
+        (true, true) => k[(i, j)] + alpha * m[(i, j)],
+        (true, false) => size * g[(j - n, i)],
+        (false, true) => size * g[(i - n, j)],
+        (false, false) => 0.0,
+    };
+    let whole = Mat::from_fn(n + n_g, n + n_g, entry);
+    let l = m.llt(Side::Lower).expect("a definite mass").L().to_owned();
+    let loads = Mat::from_fn(n + n_g, n, |i, j| if i < n { l[(i, j)] } else { 0.0 });
+    let answers = whole.partial_piv_lu().solve(loads);
+    let operator = l.transpose() * answers.as_ref().subrows(0, n);
+    let sum = Mat::from_fn(n, n, |i, j| 0.5 * (operator[(i, j)] + operator[(j, i)]));
+    let theta = sum.self_adjoint_eigenvalues(Side::Lower).expect("eigenvalues");
+    theta.iter().rev().map(|theta| 1.0 / theta - alpha).collect()
+}
+
+fn hertz(lambda: &[f64]) -> Vec<f64> {
+    lambda.iter().map(|lambda| lambda.sqrt() / TAU).collect()
+}
+
+/// Frequencies with constraints are those of the saddle point, whose rows the program does not take for stiffness.
+#[test]
+fn constraints_are_the_saddle_point_of_their_multipliers() {
+    let case = halves();
+    let found = case.reduced(&ends(&case), HERTING, "");
+    let first = (TAU * frequencies_hz(&found)[0]).powi(2);
+    let expected = saddle([&case.stiffness(), &case.mass(), &case.g()], first);
+    assert!(expected[5].abs() < 1e-9 * expected[6], "{:?}", &expected[..8]);
+    assert_close(&frequencies_hz(&found)[..N], &hertz(&expected[6..6 + N]), 1e-9);
+    // The rows of G appended to K, as programs write them that keep multipliers.
+    let Model { n, mut stiffness, .. } = case.model.clone();
+    for (row, terms) in (n as u32..).zip(&case.constraints) {
+        terms.iter().for_each(|(column, factor)| stiffness.extend([(row, *column, *factor), (*column, row, *factor)]));
+    }
+    stiffness.sort_by_key(|(row, column, _)| (*row, *column));
+    let saddle = Model { n: n + case.constraints.len(), stiffness, dofs: Vec::new(), ..case.model.clone() };
+    let place = Place::with(&saddle);
+    let flags = "--interface ends=rows:0,1,2,6,7,8,160,161 --method herting --modes 6";
+    let refused = place.reduce(&place.matrix_flags(), flags).expect(ExitCode::InputData).err;
+    assert!(refused.contains("E-LAGRANGE") && refused.contains("27"), "{refused}");
+}
+
+/// Penalties of 10^p times the stiffness come to the constraints from below, ten times as near for each power, until rounding of the penalty
+/// is more than what is left: the constraints are where they lead and cannot arrive.
+#[test]
+fn constraints_are_the_limit_of_penalties() {
+    let case = halves();
+    let found = frequencies_hz(&case.reduced(&ends(&case), HERTING, ""));
+    let (k, m, g) = (case.stiffness(), case.mass(), case.g());
+    let size = k.norm_max();
+    let whole = Mat::<f64>::identity(k.nrows(), k.nrows());
+    let squares = g.transpose() * &g;
+    let errors: Vec<f64> = (1..=12)
+        .map(|p| {
+            let stiff = &k + &squares * faer::Scale(size * 10f64.powi(p));
+            let of_penalty = hertz(&eigenvalues([&stiff, &m], &whole)[6..6 + N]);
+            let errors = found.iter().zip(&of_penalty).map(|(exact, found)| 1.0 - found / exact);
+            errors.fold(0.0, |worst: f64, error| if error.abs() > worst.abs() { error } else { worst })
+        })
+        .collect();
+    for (p, pair) in (1..).zip(errors.windows(2)) {
+        // λ of the penalty is κ = 10^p times that of the block's highest mode, 10⁵ of the first elastic one, and its rounding ε of that.
+        let rounding = 100.0 * f64::EPSILON * 1e5 * 10f64.powi(p + 1);
+        if rounding > 0.05 * pair[1].abs() {
+            continue;
+        }
+        let ratio = pair[0] / pair[1];
+        // The next term of the series is a share of 10^−p.
+        assert!(pair[1] > 0.0 && (ratio / 10.0 - 1.0).abs() <= 0.1 + 2.0 * 10f64.powi(-p), "10^{p}: {errors:?}");
+    }
+    // Three powers come a thousand times as near; twelve are as far off as one.
+    assert!(errors[3] < 2e-3 * errors[0] && errors[11].abs() > errors[0], "{errors:?}");
+}
+
+/// Equations have no unit: multiplied by a power of two they change no bit, by anything else rounding alone.
+#[test]
+fn scales_of_constraints_do_not_matter() {
+    let case = halves();
+    let interface = ends(&case);
+    let expected = case.reduced(&interface, HERTING, "");
+    let scaled = |factor: &dyn Fn(usize) -> f64| {
+        let rows: Rows = case
+            .constraints
+            .iter()
+            .enumerate()
+            .map(|(row, terms)| terms.iter().map(|(column, value)| (*column, factor(row) * value)).collect())
+            .collect();
+        let other = Case::new(case.model.clone(), rows);
+        other.run("", &interface, HERTING, "").expect(ExitCode::Done);
+        other.place.superelement("x.supel")
+    };
+    let by_two = scaled(&|row| 2f64.powi(row as i32 * 7 % 61 - 30));
+    assert!(by_two.tensors() == expected.tensors());
+    for factor in [1e12, 1e-12] {
+        let found = scaled(&|row| if row % 2 == 0 { factor } else { 3.0 });
+        assert_close(&frequencies_hz(&found), &frequencies_hz(&expected), 1e-11);
+        let n_b = expected.n_interface();
+        let (k, own) = (&found.tensors().stiffness, &expected.tensors().stiffness);
+        for (i, j) in (0..n_b).flat_map(|i| (0..n_b).map(move |j| (i, j))) {
+            let size = (own[(i, i)] * own[(j, j)]).sqrt();
+            assert!((k[(i, j)] - own[(i, j)]).abs() <= 1e-11 * size, "{factor:e}: {i}, {j}");
+        }
+    }
+}
