@@ -1635,15 +1635,15 @@ pub enum Error {
     /// An output would be written over an input, by whatever name or link.
     #[entry("E-OVERWRITE", Usage, "give the output another name")]
     #[error(
-        "`{key}` is {}, the same file as {role}, {} – expected a file of its own – give the output another name",
+        "{key} is {}, the same file as {role}, {} – expected a file of its own – give the output another name",
         path.display(), input.display()
     )]
     OutputIsInput {
-        /// The key of the output.
-        key: &'static str,
+        /// The key of the output, and whose it is.
+        key: String,
         /// Its path.
         path: PathBuf,
-        /// What the input is.
+        /// What the input is, and of which job.
         role: String,
         /// Its path.
         input: PathBuf,
@@ -1674,16 +1674,16 @@ pub enum Error {
     /// Two outputs would be written over each other.
     #[entry("E-OUTPUT-TWICE", Usage, "give one of them another name")]
     #[error(
-        "`{key}` is {}, the same file as `{other}` – expected a file of its own – give one of them another name",
+        "{key} is {}, the same file as {other} – expected a file of its own – give one of them another name",
         path.display()
     )]
     OutputTwice {
-        /// The key of the later output.
-        key: &'static str,
+        /// The key of the later output, and whose it is.
+        key: String,
         /// Its path.
         path: PathBuf,
-        /// The key of the earlier one.
-        other: &'static str,
+        /// The key of the earlier one, and whose it is.
+        other: String,
     },
     /// A folder whose jobs are to be reduced has none, or an assembly has no components.
     #[entry(
@@ -1788,7 +1788,8 @@ pub enum Error {
     #[error(
         "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – \
         expected below 1e-6 – take follower forces, gyroscopic and friction terms out and give them as matrices of \
-        their own, [[matrix]] in the job; where the file lacks part of a triangle, take the other one: model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
+        their own, [[matrix]] in the job; where the file lacks part of a triangle, take the other one: \
+        model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.

@@ -14,11 +14,11 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::io::Write;
-use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::error::Error;
+use crate::unfinished;
 
 /// Keeps freed memory in one heap for the next block, large ones too. To be called before any other thread exists: a heap of a
 /// thread cannot hold a large block, so that each thread would ask the kernel again.
@@ -63,11 +63,7 @@ struct LastWords {
     stage: &'static str,
     /// Whether stdout was promised a JSON document whatever happens.
     document: Document,
-    /// Temporary files to be removed; those of one run and some more.
-    parts: [Option<PathBuf>; MAX_PARTS],
 }
-
-const MAX_PARTS: usize = 16;
 
 /// Whether stdout carries a JSON document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,11 +74,10 @@ pub enum Document {
     None,
 }
 
-static LAST_WORDS: Mutex<LastWords> =
-    Mutex::new(LastWords { stage: "start", document: Document::None, parts: [const { None }; MAX_PARTS] });
+static LAST_WORDS: Mutex<LastWords> = Mutex::new(LastWords { stage: "start", document: Document::None });
 
 /// Changes what is said and done where memory runs out; `change` asks for no memory.
-fn arrange<T>(change: impl FnOnce(&mut LastWords) -> T) -> T {
+fn arrange(change: impl FnOnce(&mut LastWords)) {
     change(&mut LAST_WORDS.lock().unwrap_or_else(std::sync::PoisonError::into_inner))
 }
 
@@ -94,21 +89,6 @@ pub fn enter_stage(stage: &'static str) {
 /// Notes whether stdout was promised a JSON document.
 pub fn promise(document: Document) {
     arrange(|words| words.document = document);
-}
-
-/// Has a temporary file removed where memory runs out.
-pub fn remove_at_end(part: &Path) {
-    let mut part = Some(part.to_owned());
-    arrange(|words| {
-        if let Some(free) = words.parts.iter_mut().find(|place| place.is_none()) {
-            *free = part.take();
-        }
-    });
-}
-
-/// Has no file removed any more.
-pub fn keep_all() {
-    drop(arrange(|words| std::mem::replace(&mut words.parts, [const { None }; MAX_PARTS])));
 }
 
 /// The system's allocator, which ends the process where it has no memory for a caller that cannot handle that.
@@ -199,19 +179,16 @@ pub(crate) fn end_of_library() -> ! {
 #[cold]
 fn end(missing: Missing) -> ! {
     if IS_ENDING.swap(true, Ordering::SeqCst) {
-        // Another thread without memory gives the first one time to end the process. The first one comes here again where the
-        // removal of a file needs memory, for a long name: the next run names that file.
+        // Another thread without memory gives the first one time to end the process.
         std::thread::sleep(std::time::Duration::from_millis(200));
         exit_now();
     }
     match LAST_WORDS.try_lock() {
-        Ok(words) => {
-            say(missing, words.stage, words.document);
-            words.parts.iter().flatten().for_each(|part| drop(std::fs::remove_file(part)));
-        }
+        Ok(words) => say(missing, words.stage, words.document),
         // Only another thread that notes something at this moment can hold it.
         Err(_) => say(missing, "unknown", Document::None),
     }
+    unfinished::remove_all();
     exit_now()
 }
 

@@ -184,7 +184,10 @@ pub(crate) fn reduced(
         })?;
         let mut next = fewest;
         while let Some(count) = next.filter(|count| *count <= n_all) {
-            let facts = facts.remarking(format!("{count} of the {n_all} lowest modes are kept: as many as the accepted errors of frequencies, response and loads need"));
+            let facts = facts.remarking(format!(
+                "{count} of the {n_all} lowest modes are kept: as many as the accepted errors of frequencies, response and loads \
+                 need"
+            ));
             let outcome = made(&plan.keeping(ModeSelection::Count { count }), &facts, observer)?;
             if outcome.report.body.preservation.modes_are_enough() {
                 return Ok(outcome);

@@ -30,8 +30,10 @@ impl Spectrum {
                 let [k, m] = [k, m].map(|a| dense::part(a, &moving));
                 let inner = (k.as_ref(), m.as_ref());
                 let n_zero = if content.boundary == Boundary::MixedInterface { content.n_passing()? } else { 0 };
-                let mut held = eigenvalues(inner.0, inner.1, content.first)?;
-                sharpen(&mut held, inner, content.first, n_zero + content.lambda.len())?;
+                // A heavy mass inside makes the held component far softer than the free one, whose first eigenvalue leaves it no digits.
+                let near = content.lambda.iter().copied().find(|lambda| *lambda > 0.0).unwrap_or(content.first);
+                let mut held = eigenvalues(inner.0, inner.1, near)?;
+                sharpen(&mut held, inner, near, n_zero + content.lambda.len())?;
                 held.split_off(n_zero.min(held.len()))
             }
         };

@@ -10,19 +10,15 @@ use super::answer::{Program, Terminal};
 use super::exit_code::ExitCode;
 use super::job_process::{self, Ended, RunLine};
 use super::judging::Answer;
-use super::overwriting::{self, OwnFiles};
 use super::pipeline::Pipeline;
 use super::progress::StageLine;
 use super::up_to_date::{self, Repetition};
-use super::{memory, process, rehearsal};
+use super::{memory, overwriting, process, rehearsal};
 use crate::assembly::{self, Assembly, Component};
 use crate::cost_forecast::Counting;
 use crate::error::{Error, Result};
 use crate::memory_forecast::Resources;
 use crate::report::{ComponentOutcome, ComponentRow, ErrorLine, JoinRow, ReductionsReport};
-
-/// The code of a run that was ended from outside.
-const JOB_PROCESS: &str = "E-JOB-PROCESS";
 
 pub(super) fn run(command: &AllCommand, here: (Pipeline, RunLine), terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     refuse_shared_files(&command.members)?;
@@ -47,21 +43,25 @@ pub(super) fn run(command: &AllCommand, here: (Pipeline, RunLine), terminal: &mu
         line.show(&format!("  {} of {n_all} done · {} …", n_up_to_date + n_ended, names.join(", ")));
     });
     drop(line);
-    let mut said = ended.iter().flat_map(|ended| ended.said.lines().map(str::to_owned)).collect::<Vec<_>>();
-    let mut made = stale.iter().zip(ended).map(|(member, ended)| row(member, ended));
+    let (made, mut said) = rows(&stale, ended);
+    let mut made = made.into_iter();
     let components: Vec<ComponentRow> = up_to_date.into_iter().filter_map(|row| row.or_else(|| made.next())).collect();
     let joins = joins(command, &components, shares.budget);
-    said.extend(unsaid(&components, &joins));
+    said.extend(joins.iter().filter_map(JoinRow::refusal));
     answer(&ReductionsReport { components, joins, budget_bytes: shares.budget }, (command.answer, &said), terminal)
 }
 
-/// One line for each error of this process, which no other one has said: of runs that left nothing, and of interfaces that do not fit.
-fn unsaid(components: &[ComponentRow], joins: &[JoinRow]) -> Vec<String> {
-    let line = |what: &str, error: &ErrorLine| format!("supel: {what}: error[{}]: {}", error.code, error.message);
-    let died = components.iter().filter_map(|row| Some((&row.name, row.error.as_ref()?)));
-    let died = died.filter(|(_, error)| error.code == JOB_PROCESS).map(|(name, error)| line(name, error));
-    let refused = joins.iter().filter_map(|join| Some(line(&format!("{} = {}", join.a, join.b), join.error.as_ref()?)));
-    died.chain(refused).collect()
+/// What became of the jobs that ran, and what they said; of one that was ended from outside its error, which it could not say.
+fn rows(members: &[&Member], ended: Vec<Ended>) -> (Vec<ComponentRow>, Vec<String>) {
+    let (mut rows, mut said) = (Vec::new(), Vec::new());
+    for (member, ended) in members.iter().zip(ended) {
+        said.extend(ended.said.lines().map(str::to_owned));
+        let is_silent = ended.code.is_none();
+        let row = row(member, ended);
+        said.extend(row.error.as_ref().filter(|_| is_silent).map(|error| error.line(&row.name)));
+        rows.push(row);
+    }
+    (rows, said)
 }
 
 fn announce(command: &AllCommand, terminal: &mut Terminal<'_>) {
@@ -126,11 +126,10 @@ fn answer(
 
 /// Refuses jobs of which one writes what another one reads or writes, before anything is started.
 fn refuse_shared_files(members: &[Member]) -> Result<()> {
-    let commands = || members.iter().filter_map(|member| member.command.as_deref());
-    let inputs: Vec<_> =
-        commands().flat_map(|command| overwriting::inputs(&command.job, command.document.as_deref())).collect();
-    let outputs: Vec<_> = commands().flat_map(|command| overwriting::outputs(&command.job.write)).collect();
-    OwnFiles::of(&inputs, &outputs).map(drop)
+    overwriting::refuse_shared(members.iter().filter_map(|member| {
+        let command = member.command.as_deref()?;
+        Some((member.document.as_path(), &command.job, command.document.as_deref()))
+    }))
 }
 
 /// What an earlier run made of a job, where that is up to date.

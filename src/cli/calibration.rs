@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use supel_runtime::StagedFile;
 
 use super::pipeline::Calibration;
+use super::signals;
 use crate::cost_forecast::{Proofs, Rates, Sizes};
 use crate::dense::gram;
 use crate::error::{Error, Result};
@@ -97,7 +98,8 @@ fn keep(file: &Path, all: &[Kept]) -> Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     std::fs::create_dir_all(folder).map_err(|source| Error::Write { path: folder.to_owned(), source })?;
     let text = serde_json::to_string_pretty(all).unwrap_or_default();
-    StagedFile::write(file, text.as_bytes()).and_then(StagedFile::commit).map_err(Error::of_writing)
+    let written = || StagedFile::write(file, text.as_bytes()).and_then(StagedFile::commit);
+    signals::deferred(written).map_err(Error::of_writing)
 }
 
 /// The name of the processor, where the system tells: folders of users move between machines.

@@ -4,7 +4,7 @@
 //! stderr, and so does progress on a terminal. The exit code is a contract, see [`ExitCode`].
 //!
 //! An interrupt (Ctrl-C) ends the process by the signal itself, which shells and make report as 130. Outputs get
-//! their names only when they are complete, so that no handler has anything to undo. While outputs are being renamed, the
+//! their names only when they are complete; before that a handler removes them. While outputs are being renamed, the
 //! signal waits.
 //!
 //! An answer that cannot be written to stdout is an error. A reader that has closed its end of the pipe is not.
@@ -150,6 +150,7 @@ fn execute(flags: flags::CommandLine, pipeline: Pipeline, terminal: &mut Termina
 /// A command line run against the real streams; what `main` calls.
 pub fn main(pipeline: Pipeline, stdout: Stdout) -> std::process::ExitCode {
     signals::ignore_file_size_limit();
+    signals::leave_nothing_unfinished();
     let (mut open, mut closed, mut err) = (std::io::stdout().lock(), Closed, std::io::stderr());
     let out: &mut dyn Write = if stdout == Stdout::Closed { &mut closed } else { &mut open };
     let code = run(std::env::args_os(), pipeline, &mut Terminal::of_process(out, &mut err));

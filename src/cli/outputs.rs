@@ -1,5 +1,6 @@
 //! The files of a run: written under temporary names, then renamed together, the superelement last.
 
+use std::io::Write;
 use std::path::Path;
 
 use supel_runtime::{StagedFile, StagedWriter, abandoned_parts};
@@ -7,7 +8,7 @@ use supel_runtime::{StagedFile, StagedWriter, abandoned_parts};
 use super::overwriting::OwnFiles;
 use super::signals;
 use crate::error::{Error, Result};
-use crate::heap;
+use crate::unfinished;
 
 /// Files that wait for their names.
 pub(super) struct Outputs<'a> {
@@ -35,7 +36,7 @@ impl<'a> Outputs<'a> {
     /// Gives all files their names, or none.
     pub(super) fn commit(self) -> Result<()> {
         let committed = signals::deferred(|| StagedFile::commit_all(self.staged));
-        heap::keep_all();
+        unfinished::keep_all();
         committed.map_err(Error::of_writing)
     }
 }
@@ -45,10 +46,9 @@ impl<'a> Outputs<'a> {
 /// # Panics
 /// Where it is none of the outputs of the command.
 pub(super) fn staged(own: &OwnFiles, path: &Path, bytes: &[u8]) -> Result<StagedFile> {
-    assert!(own.paths().iter().any(|output| output == path), "{} is no output of this command", path.display());
-    let staged = StagedFile::write(path, bytes).map_err(Error::of_writing)?;
-    heap::remove_at_end(staged.path());
-    Ok(staged)
+    let mut writer = writer(own, path)?;
+    writer.write_all(bytes).map_err(|source| Error::Write { path: path.to_owned(), source })?;
+    writer.finish().map_err(Error::of_writing)
 }
 
 /// A file that is written piece by piece under a temporary name, which is removed wherever the run ends before it gets its own.
@@ -57,16 +57,20 @@ pub(super) fn staged(own: &OwnFiles, path: &Path, bytes: &[u8]) -> Result<Staged
 /// Where it is none of the outputs of the command.
 pub(super) fn writer(own: &OwnFiles, path: &Path) -> Result<StagedWriter> {
     assert!(own.paths().iter().any(|output| output == path), "{} is no output of this command", path.display());
-    let writer = StagedWriter::create(path).map_err(Error::of_writing)?;
-    heap::remove_at_end(writer.path());
-    Ok(writer)
+    // No signal comes between a file and what removes it.
+    signals::deferred(|| {
+        let writer = StagedWriter::create(path).map_err(Error::of_writing)?;
+        unfinished::remove_at_end(writer.path());
+        Ok(writer)
+    })
 }
 
 /// Refuses an output that has no place before the model is read, with the error that its writing would end in: an empty
 /// file is written in the folder of each and dropped.
 pub(super) fn refuse_unwritable(own: &OwnFiles) -> Result<()> {
     // The names of other outputs follow from the superelement, which is the last: its folder is checked first.
-    own.paths().iter().rev().try_for_each(|path| StagedFile::write(path, &[]).map(drop).map_err(Error::of_writing))
+    let try_writing = |path: &_| StagedFile::write(path, &[]).map(drop).map_err(Error::of_writing);
+    own.paths().iter().rev().try_for_each(|path| signals::deferred(|| try_writing(path)))
 }
 
 /// What is to be said of temporary files in the folders of the outputs, which other runs left or are writing.

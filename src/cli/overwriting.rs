@@ -19,7 +19,7 @@ impl OwnFiles {
     /// # Errors
     /// [`Error::OutputIsInput`], [`Error::OutputTwice`].
     pub(super) fn of(inputs: &[Named], outputs: &[Named]) -> Result<Self> {
-        refuse(inputs, outputs)?;
+        refuse(&told(inputs, ""), &told(outputs, ""))?;
         Ok(Self(outputs.iter().map(|(_, path)| path.clone()).collect()))
     }
 
@@ -29,19 +29,39 @@ impl OwnFiles {
     }
 }
 
-fn refuse(inputs: &[Named], outputs: &[Named]) -> Result<()> {
-    let inputs: Vec<(&str, &Path, Place)> =
-        inputs.iter().map(|(role, path)| (*role, path.as_path(), Place::of(path))).collect();
-    let mut earlier: Vec<(&'static str, Place)> = Vec::new();
+/// Refuses jobs of which one writes what another one, or itself, reads or writes. Each comes with the name of its document.
+///
+/// # Errors
+/// [`Error::OutputIsInput`], [`Error::OutputTwice`].
+pub(super) fn refuse_shared<'a>(jobs: impl Iterator<Item = (&'a Path, &'a Job, Option<&'a Path>)>) -> Result<()> {
+    let (mut all_inputs, mut all_outputs) = (Vec::new(), Vec::new());
+    for (name, job, document) in jobs {
+        let owner = format!(" of {}", name.display());
+        all_inputs.extend(told(&inputs(job, document), &owner));
+        all_outputs.extend(told(&outputs(&job.write), &owner));
+    }
+    refuse(&all_inputs, &all_outputs)
+}
+
+/// Files with what messages call them: keys and flags as they are typed, with whose they are.
+fn told(files: &[Named], owner: &str) -> Vec<(String, PathBuf)> {
+    let is_typed = |name: &str| !name.contains(' ');
+    let name = |name: &str| if is_typed(name) { format!("`{name}`{owner}") } else { format!("{name}{owner}") };
+    files.iter().map(|(called, path)| (name(called), path.clone())).collect()
+}
+
+fn refuse(inputs: &[(String, PathBuf)], outputs: &[(String, PathBuf)]) -> Result<()> {
+    let inputs: Vec<(&String, &PathBuf, Place)> =
+        inputs.iter().map(|(role, path)| (role, path, Place::of(path))).collect();
+    let mut earlier: Vec<(&String, Place)> = Vec::new();
     for (key, path) in outputs {
-        let (key, path) = (*key, path.clone());
-        let place = Place::of(&path);
+        let place = Place::of(path);
         if let Some((role, input, _)) = inputs.iter().find(|(.., input)| input.is(&place)) {
-            let (role, input) = ((*role).to_owned(), (*input).to_owned());
-            return Err(Error::OutputIsInput { key, path, role, input });
+            let (role, input) = ((*role).clone(), (*input).clone());
+            return Err(Error::OutputIsInput { key: key.clone(), path: path.clone(), role, input });
         }
         if let Some((other, _)) = earlier.iter().find(|(_, other)| other.is(&place)) {
-            return Err(Error::OutputTwice { key, path, other });
+            return Err(Error::OutputTwice { key: key.clone(), path: path.clone(), other: (*other).clone() });
         }
         earlier.push((key, place));
     }

@@ -94,7 +94,7 @@ pub(super) fn rehearse_matrix(matrix: &SingleMatrix, memory_bytes: Option<u64>) 
 /// Reads one mesh with its cells in a child process, where the HDF5 library reads it.
 ///
 /// # Errors
-/// Those of [`rehearse`].
+/// The errors of [`rehearse`].
 pub(super) fn rehearse_mesh(path: &Path, memory_bytes: Option<u64>) -> Result<Rehearsed> {
     if !MeshInput::is_parsed_in_c(path) {
         return Ok(Rehearsed::Nothing);

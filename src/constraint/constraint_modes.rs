@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::attachment::Attachment;
-use super::rigid_correction::{Carried, defect, left_inverse, left_inverse_by, rigid_error};
+use super::rigid_correction::{Carried, defect, left_inverse, left_inverse_by, left_inverse_of, rigid_error};
 use super::schur_complement::{condensed_stiffness, sampled_cancellation};
 use super::static_modes::{LowRank, StaticModes};
 use crate::dense;
@@ -84,8 +84,8 @@ fn motions_to_carry(partition: &Partition, rigid: &RigidBodyModes) -> [Mat<f64>;
 
 /// Ψ_S that the factor makes each time, corrected as the stored one is.
 ///
-/// The weights of U_B⁺ are what the interior takes of the energy of each dof, ψᵀK_IIψ = (K_BB − K̂_BB)_jj, in the place of its diagonal
-/// terms: no column is needed for them.
+/// Where no column is ever made, the weights of U_B⁺ are what the interior takes of the energy of each dof, ψᵀK_IIψ = (K_BB − K̂_BB)_jj: there is
+/// no mass then that the correction changes.
 fn by_factor<'a>(
     form: Statics,
     partition: &Partition,
@@ -100,9 +100,14 @@ fn by_factor<'a>(
     if n_r > 0 && n_b > 0 {
         let [u_i, u_b] = motions_to_carry(partition, rigid);
         raw_rigid_error = rigid_error(partition, &solved, rigid.orthonormal.as_ref()).value;
-        let outer = diagonal(&partition.stiffness).split_off(n_i);
-        let inside: Vec<f64> = (0..n_b).map(|j| (outer[j] - schur[(j, j)]).max(0.0)).collect();
-        let lift = left_inverse_by(&inside, &outer, u_b.as_ref());
+        let lift = match form {
+            Statics::Condensed => {
+                let outer = diagonal(&partition.stiffness).split_off(n_i);
+                let inside: Vec<f64> = (0..n_b).map(|j| (outer[j] - schur[(j, j)]).max(0.0)).collect();
+                left_inverse_by(partition, &inside, u_b.as_ref())
+            }
+            _ => left_inverse_of(partition, &solved, u_b.as_ref()),
+        };
         correction = LowRank { tall: defect(&solved, u_i.as_ref(), u_b.as_ref()), wide: lift.clone() };
         carried = Carried { motions: u_b, lift };
     }

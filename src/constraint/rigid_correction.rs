@@ -7,7 +7,7 @@ use super::static_modes::StaticModes;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
 use crate::rigid::scales;
-use crate::sparse::diagonal;
+use crate::sparse::{diagonal, panels};
 
 /// The correction of Ψ_S as the interface sees it.
 ///
@@ -95,16 +95,27 @@ const LEAST_WEIGHT: f64 = 1e-6;
 /// little inside is nearly right and takes little of the correction: on a long part that two neighbouring nodes hold, the one that no
 /// internal dof touches would otherwise take the error of the other one, times the length of the part over their distance.
 pub(crate) fn left_inverse(partition: &Partition, modes: MatRef<'_, f64>, u_b: MatRef<'_, f64>) -> Mat<f64> {
-    let stiffness = diagonal(&partition.stiffness);
-    let (inner, outer) = stiffness.split_at(partition.n_internal);
-    let inside = |j: usize| -> f64 { dense::column(modes, j).iter().zip(inner).map(|(psi, k)| psi * psi * k).sum() };
-    let inside: Vec<f64> = (0..u_b.nrows()).map(inside).collect();
-    left_inverse_by(&inside, outer, u_b)
+    left_inverse_by(partition, &weights_inside(partition, modes), u_b)
 }
 
-/// The matrix of [`left_inverse`] by the energy that each dof has inside and by its stiffness.
-pub(super) fn left_inverse_by(inside: &[f64], outer: &[f64], u_b: MatRef<'_, f64>) -> Mat<f64> {
+/// The same of constraint modes that are made some columns at a time.
+pub(super) fn left_inverse_of(partition: &Partition, modes: &StaticModes<'_>, u_b: MatRef<'_, f64>) -> Mat<f64> {
+    let of_panel = |columns| weights_inside(partition, modes.columns(columns).as_ref());
+    let inside: Vec<f64> = panels(modes.n_interface()).flat_map(of_panel).collect();
+    left_inverse_by(partition, &inside, u_b)
+}
+
+/// ψᵀ diag(K_II) ψ of some constraint modes.
+fn weights_inside(partition: &Partition, modes: MatRef<'_, f64>) -> Vec<f64> {
+    let stiffness = diagonal(&partition.stiffness);
+    let weight = |j: usize| dense::column(modes, j).iter().zip(&stiffness).map(|(psi, k)| psi * psi * k).sum();
+    (0..modes.ncols()).map(weight).collect()
+}
+
+/// The matrix of [`left_inverse`] by what the solve of each column lacks, squared.
+pub(super) fn left_inverse_by(partition: &Partition, inside: &[f64], u_b: MatRef<'_, f64>) -> Mat<f64> {
     let n_b = u_b.nrows();
+    let outer = diagonal(&partition.stiffness).split_off(partition.n_internal);
     let weight = |j: usize| {
         let weight = (inside[j] + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).sqrt();
         if weight > 0.0 { weight } else { 1.0 }

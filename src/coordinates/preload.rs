@@ -22,8 +22,8 @@ use supel_runtime::motion::{IDENTITY_3, cross};
 /// Difference of K and the internal forces relative to the largest force, beyond rounding of K. Coordinates of five digits leave 1e-5 of
 /// the terms of K, where a preload to a strain of a thousandth makes 1e-3 of them.
 const OTHER_FORCES: f64 = 1e-2;
-/// The same at the nodes of a rigid patch relative to the largest force there, because its arms turn with them: a force that is far larger
-/// somewhere else excuses nothing. What five digits of the coordinates leave of the terms of K is no force.
+/// Share of the terms of K that five digits of the coordinates leave, and that is no force. At the nodes of a rigid patch, whose arms turn
+/// with the forces, differences are compared with the largest force of patches: a larger one somewhere else excuses nothing.
 const OF_COORDINATES: f64 = 2e-5;
 /// Resultant of the internal forces relative to its terms: what four digits of them leave.
 const UNBALANCED: f64 = 1e-4;

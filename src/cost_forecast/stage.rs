@@ -86,7 +86,8 @@ fn constraint_modes(sizes: &Sizes) -> Work {
     match sizes.statics {
         // The backward half of a solve for each, K̂ and its terms.
         Statics::Stored => sizes.solves(n_b) * 0.5 + sizes.products(2.0 * n_b) + sizes.dense(n_b, n_b),
-        Statics::ByFactor => sizes.solves(n_b) + sizes.products(2.0 * n_b),
+        // Both halves of one, and its backward half again for the weights of the correction.
+        Statics::ByFactor => sizes.solves(n_b) * 1.5 + sizes.products(2.0 * n_b),
         Statics::Condensed => sizes.solves(n_b.min(16.0)) * 0.5 + sizes.products(n_b.min(16.0)),
         Statics::Carried => sizes.products(2.0 * n_b) + sizes.dense(n_b, 2.0 * n_b),
     }

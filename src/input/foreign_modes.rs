@@ -68,8 +68,8 @@ const FORMATS: [ModeFormat; 5] = [
 /// Reads the modes of another program, for matrices of these rows.
 ///
 /// # Errors
-/// Those of [`super::mode_columns`]; [`Error::ValuesCount`] where the file has more or fewer frequencies than shapes;
-/// [`Error::ModesFormat`] where a row has no value in a file of nodes and directions.
+/// The errors of [`super::mode_columns`]; [`Error::ValuesCount`] where the file has more or fewer frequencies than shapes;
+/// [`Error::ModesNodes`] where a row has no value in a file of nodes and directions.
 pub fn foreign_modes(path: &Path, rows: &ModeRows, allowance: &Allowance) -> Result<ForeignModes> {
     let (file, member) = split_member(path);
     let source = ModeSource { file, member, rows, allowance };

@@ -41,7 +41,7 @@ pub(super) fn array<'a>(path: &'a Path, name: &'a str) -> Result<Array<'a, impl 
 /// The modes in the columns of an array that is named.
 ///
 /// # Errors
-/// Those of [`array`] and of [`Array::modes`].
+/// The errors of [`array`] and of [`Array::modes`].
 pub(super) fn modes(source: &ModeSource<'_>) -> Result<ReadModes> {
     array(&source.file, source.member.as_deref().unwrap_or_default())?.modes(source)
 }

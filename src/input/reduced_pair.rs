@@ -26,7 +26,7 @@ impl ReducedPair {
     /// either has.
     ///
     /// # Errors
-    /// Those of the readers; [`crate::error::Error::RowsUnnamed`] where only one of them names its rows.
+    /// The errors of the readers; [`crate::error::Error::RowsUnnamed`] where only one of them names its rows.
     pub fn read(stiffness: &Path, mass: &Path, allowance: &Allowance) -> Result<Self> {
         let read = |path: &Path| -> Result<ReadMatrix> {
             let (file, member) = split_member(path);

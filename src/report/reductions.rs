@@ -100,6 +100,11 @@ impl ErrorLine {
         Self { code: error.code().to_owned(), message: error.to_string() }
     }
 
+    /// The line for stderr that says of what it is.
+    pub fn line(&self, what: &str) -> String {
+        format!("supel: {what}: error[{}]: {}", self.code, self.message)
+    }
+
     /// The error in the document of another process, or, where that left none, how it ended.
     pub fn of_document(answer: &Value, ended: &str) -> Self {
         let text = |key: &str| answer["error"][key].as_str().map(str::to_owned);
@@ -164,6 +169,11 @@ impl JoinRow {
         let (error, exit_code) = (Some(ErrorLine::of(error)), error.class() as u8);
         Self { a: a.to_owned(), b: b.to_owned(), n_nodes: None, n_dofs: None, distance: None, error, exit_code }
     }
+
+    /// Why they do not fit, as a line for stderr.
+    pub fn refusal(&self) -> Option<String> {
+        Some(self.error.as_ref()?.line(&format!("{} = {}", self.a, self.b)))
+    }
 }
 
 #[derive(Serialize)]
@@ -218,14 +228,10 @@ impl ReductionsReport {
     /// A line for each component that is not verified, and for each pair of interfaces that does not fit.
     pub fn unmet(&self) -> Vec<String> {
         let components = self.components.iter().filter(|row| row.exit_code != 0).map(|row| match &row.error {
-            Some(ErrorLine { code, message }) => format!("supel: {}: error[{code}]: {message}", row.name),
+            Some(error) => error.line(&row.name),
             None => format!("supel: {}: not verified", row.name),
         });
-        let joins = self.joins.iter().filter_map(|join| {
-            let ErrorLine { code, message } = join.error.as_ref()?;
-            Some(format!("supel: {} = {}: error[{code}]: {message}", join.a, join.b))
-        });
-        components.chain(joins).collect()
+        components.chain(self.joins.iter().filter_map(JoinRow::refusal)).collect()
     }
 
     fn table(&self, page: &mut Page) {

@@ -14,3 +14,4 @@ pub mod pencil;
 pub mod place;
 pub mod sample;
 pub mod schema;
+pub mod sources;

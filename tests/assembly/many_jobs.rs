@@ -164,6 +164,7 @@ fn what_cannot_be_many_jobs_is_refused_before_anything_runs() {
         let ended = reduce_all(&place, name, &[]);
         assert!(ended.err.contains(&format!("error[{code}]")), "{name}: {}{}", ended.out, ended.err);
         assert!(!place.path("left.supel").exists(), "{name}");
+        ended.err
     };
     refused("empty", "E-NO-JOBS");
     refused("missing", "E-READ");
@@ -176,5 +177,7 @@ fn what_cannot_be_many_jobs_is_refused_before_anything_runs() {
     let same = std::fs::read_to_string(place.path("right.toml")).expect("a job").replace("right.supel", "left.supel");
     place.write("right.toml", same.as_bytes());
     place.write("assembly.toml", ASSEMBLY.as_bytes());
-    refused("assembly.toml", "E-OUTPUT-TWICE");
+    let told = refused("assembly.toml", "E-OUTPUT-TWICE");
+    let named = ["left.toml", "right.toml"].map(|name| told.contains(&format!("of {}", place.text(name))));
+    assert_eq!(named, [true; 2], "{told}");
 }

@@ -1,9 +1,10 @@
 //! `docs/errors.md` against the enum and the sources.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use supel::error::{Error, INTERNAL_CODE, USAGE_CODE};
+use supel_testing::sources::files_below;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -126,24 +127,11 @@ pub(crate) fn warnings() -> Vec<String> {
 /// The codes of warnings in the sources are those of the document, in alphabetical order.
 #[test]
 fn every_warning_has_its_line() {
-    let mut sources = Vec::new();
-    collect(&root().join("src"), &mut sources);
     let mut used = BTreeSet::new();
-    for path in sources {
+    for path in files_below(&root().join("src")) {
         let text = std::fs::read_to_string(&path).expect("a source");
         let quoted = text.split("\"W-").skip(1).filter_map(|rest| rest.split_once('"'));
         used.extend(quoted.map(|(code, _)| format!("W-{code}")));
     }
     assert_eq!(warnings(), used.into_iter().collect::<Vec<_>>());
-}
-
-pub(crate) fn collect(folder: &Path, sources: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            collect(&path, sources);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            sources.push(path);
-        }
-    }
 }

@@ -140,6 +140,25 @@ fn a_call_that_fails_leaves_the_outputs_of_one_run() {
     assert_eq!(n_unsynced, 2, "the last sync of each sweep");
 }
 
+/// A request to terminate comes after every call that changes a file: while outputs are tried, written, read back and named. All outputs are of one run,
+/// and nothing else is left.
+#[test]
+fn a_request_to_terminate_leaves_the_outputs_of_one_run() {
+    let case = Case::new();
+    case.earlier();
+    let n_calls = count(&case.args("2"), &case.calls(), &case.place.path(""));
+    for at in 1..=n_calls {
+        let earlier = case.earlier();
+        let ended = run(&case.args("2"), &case.calls(), at, Mode::Terminate);
+        let what = format!("after call {at} of {n_calls}: {}", ended.err);
+        assert_eq!(ended.code, None, "{what}");
+        let digest = case.digest().expect("one of the two");
+        assert!(at < n_calls || digest != earlier, "the last call comes after the names");
+        assert_eq!(case.carriers(&digest), OUTPUTS, "{what}");
+        assert_eq!(case.parts(), [""; 0], "{what}");
+    }
+}
+
 /// From some call on nothing works any more, as on a disk that is gone: what could not be taken back is named, and `verify` sees that report
 /// and superelement are of two runs.
 #[test]

@@ -2,7 +2,8 @@
 
    FAULT_KIND    files: calls that change files in FAULT_FOLDER; heap: allocations of FAULT_LEAST bytes and more
    FAULT_AT      the call that fails, from 1; 0 for none
-   FAULT_MODE    once: that call; from: that one and all later ones; exit: at that call the process calls exit(-1), as a library may
+   FAULT_MODE    once: that call; from: that one and all later ones; exit: at that call the process calls exit(-1), as a library may;
+                 terminate: the call is made, and SIGTERM comes after it (files)
    FAULT_ERRNO   what it fails with (files)
    FAULT_COUNT   a file to which the number of calls is written when the process ends
 */
@@ -10,6 +11,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -25,7 +27,7 @@ extern void *__libc_memalign(size_t, size_t);
 
 static atomic_long n_calls;
 static long at, least;
-static int from, exits, error = EIO, kind;
+static int from, exits, terminates, error = EIO, kind;
 static char folder[4096];
 enum { NOTHING, FILES, HEAP };
 
@@ -37,6 +39,7 @@ __attribute__((constructor)) static void start(void) {
     least = getenv("FAULT_LEAST") ? atol(getenv("FAULT_LEAST")) : 1;
     from = getenv("FAULT_MODE") && !strcmp(getenv("FAULT_MODE"), "from");
     exits = getenv("FAULT_MODE") && !strcmp(getenv("FAULT_MODE"), "exit");
+    terminates = getenv("FAULT_MODE") && !strcmp(getenv("FAULT_MODE"), "terminate");
     if (getenv("FAULT_ERRNO")) error = atoi(getenv("FAULT_ERRNO"));
     kind = !strcmp(text, "heap") ? HEAP : FILES;
 }
@@ -57,7 +60,7 @@ __attribute__((destructor)) static void end(void) {
 static int fails(void) {
     long call = ++n_calls;
     if (exits && call == at) exit(-1);
-    return at && !exits && (from ? call >= at : call == at);
+    return at && !exits && !terminates && (from ? call >= at : call == at);
 }
 
 /* ---- files ---- */
@@ -75,21 +78,28 @@ static int inside_fd(int fd) {
 }
 
 #define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
-#define FAIL_IF(condition) if ((condition) && fails()) { errno = error; return -1; }
+/* A call that fails or not, with a signal after it or not. */
+#define CALL(is_counted, call) { \
+    int counted = (is_counted); \
+    if (counted && fails()) { errno = error; return -1; } \
+    __typeof__(call) done = (call); \
+    if (counted && terminates && n_calls == at) raise(SIGTERM); \
+    return done; \
+}
 
-int rename(const char *a, const char *b) { FAIL_IF(inside(b)); return NEXT(rename)(a, b); }
-int link(const char *a, const char *b) { FAIL_IF(inside(b)); return NEXT(link)(a, b); }
-int linkat(int x, const char *a, int y, const char *b, int f) { FAIL_IF(inside(b)); return NEXT(linkat)(x, a, y, b, f); }
-int unlink(const char *a) { FAIL_IF(inside(a)); return NEXT(unlink)(a); }
-int fsync(int fd) { FAIL_IF(inside_fd(fd)); return NEXT(fsync)(fd); }
-ssize_t write(int fd, const void *b, size_t n) { FAIL_IF(inside_fd(fd)); return NEXT(write)(fd, b, n); }
+int rename(const char *a, const char *b) CALL(inside(b), NEXT(rename)(a, b))
+int link(const char *a, const char *b) CALL(inside(b), NEXT(link)(a, b))
+int linkat(int x, const char *a, int y, const char *b, int f) CALL(inside(b), NEXT(linkat)(x, a, y, b, f))
+int unlink(const char *a) CALL(inside(a), NEXT(unlink)(a))
+int fsync(int fd) CALL(inside_fd(fd), NEXT(fsync)(fd))
+ssize_t write(int fd, const void *b, size_t n) CALL(inside_fd(fd), NEXT(write)(fd, b, n))
 int open64(const char *path, int flags, ...) {
+    int changes = (flags & (O_CREAT | O_WRONLY | O_RDWR)) != 0;
     va_list rest;
     va_start(rest, flags);
     mode_t mode = va_arg(rest, int);
     va_end(rest);
-    FAIL_IF((flags & (O_CREAT | O_WRONLY | O_RDWR)) && inside(path));
-    return ((int (*)(const char *, int, ...))dlsym(RTLD_NEXT, "open64"))(path, flags, mode);
+    CALL(changes && inside(path), ((int (*)(const char *, int, ...))dlsym(RTLD_NEXT, "open64"))(path, flags, mode))
 }
 
 /* ---- heap ---- */

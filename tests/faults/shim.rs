@@ -36,6 +36,8 @@ pub(crate) enum Mode {
     Once,
     /// It fails, and all later ones do.
     From,
+    /// It is made, and a request to terminate comes after it: unlike an interrupt, no shell has its background jobs ignore that.
+    Terminate,
     /// It calls `exit(-1)`, as a library does that has no memory.
     Exit,
 }
@@ -45,6 +47,7 @@ impl Mode {
         match self {
             Self::Once => "once",
             Self::From => "from",
+            Self::Terminate => "terminate",
             Self::Exit => "exit",
         }
     }

@@ -9,7 +9,7 @@ mod numerics;
 mod regions;
 mod rigid_body;
 
-use supel_testing::chain;
+use supel_testing::{cases, chain};
 
 use supel::error::{Error, ErrorClass};
 

@@ -12,15 +12,15 @@ use supel_models as models;
 use supel_models::transform::{grounded, supported};
 use supel_models::{Ends, Material, SplitMix64, brick, spring};
 
+use crate::cases::{hinged, hinged_pins};
 use crate::chain::{Method, direct, partition, reduce, rigid_of, rows};
-use crate::rigid_body::hinged_pair;
 use crate::{assert_says, refusal};
 
 /// With the interface on one side of a hinge the other side is loose although every rigid-body motion is reacted.
 #[test]
 fn loose_part_beyond_a_hinge() {
     for method in [Method::CraigBampton, Method::Herting] {
-        let error = refusal(reduce(&hinged_pair(), &[direct("pins", &[1, 3, 4, 9])], method, 2));
+        let error = refusal(reduce(&hinged(), &[direct("pins", &[1, 3, 4, 9])], method, 2));
         assert!(matches!(error, Error::NotDefinite { .. }), "{error}");
         assert_says(&error, ErrorClass::ModelPhysics, &["elimination stopped at node ", "mechanism"]);
     }
@@ -42,10 +42,9 @@ fn buckled_component() {
 /// With the interface on both sides of a hinge everything can be factored; the hinge shows in the condensed stiffness.
 #[test]
 fn hinge_between_interfaces() {
-    let pins = [direct("here", &[1, 2, 4, 7]), direct("there", &[15, 18, 21])];
     // A mechanism costs no energy, and is kept among the rigid-body modes, whatever holds the interface.
     for method in [Method::Herting, Method::CraigBampton] {
-        let chain = reduce(&hinged_pair(), &pins, method, 2).expect("a component on a hinge");
+        let chain = reduce(&hinged(), &hinged_pins(), method, 2).expect("a component on a hinge");
         assert_eq!(chain.rigid.count(), 7, "{method:?}");
     }
 }
@@ -53,8 +52,7 @@ fn hinge_between_interfaces() {
 /// Where nobody looks for mechanisms, the operator of free modes finds one motion more than it was told of.
 #[test]
 fn hinge_that_nobody_looked_for() {
-    let pins = [direct("here", &[1, 2, 4, 7]), direct("there", &[15, 18, 21])];
-    let (partition, rigid) = rigid_of(&hinged_pair(), &pins).expect("a component");
+    let (partition, rigid) = rigid_of(&hinged(), &hinged_pins()).expect("a component");
     let analysis = partition.analysis().expect("a pattern");
     let factor = Cholesky::new(&analysis, partition.pencil(), 0.0, &|dof| partition.name_of(dof)).expect("held");
     let constraint = constraint_modes(&partition, &factor, &rigid);

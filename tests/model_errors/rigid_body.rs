@@ -6,17 +6,12 @@ use supel_models as models;
 use supel_models::transform::{carrying, grounded, join, scaled, supported, translated};
 use supel_models::{Ends, Inertia, Material, Section, brick, frame, membrane, spring};
 
+use crate::cases::hinged;
 use crate::chain::{direct, rigid_of, rows};
 use crate::{assert_says, refusal};
 
 fn block() -> models::Model {
     brick([3, 2, 2], [3.0, 2.0, 2.0], &Material::UNIT)
-}
-
-/// Two beams of 12 nodes that meet in the edge x = 2, y = 1: a hinge about z.
-pub(crate) fn hinged_pair() -> models::Model {
-    let beam = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
-    join(&beam, &translated(&beam, [2.0, 1.0, 0.0]), &[(6, 1), (12, 7)])
 }
 
 fn count(model: &models::Model, labels: &[i64]) -> usize {
@@ -48,7 +43,7 @@ fn counts_are_found_not_assumed() {
 /// A hinge adds a zero mode that is not a rigid-body motion: coordinates give six, the matrices seven.
 #[test]
 fn hinged_pair_has_a_seventh_zero_mode() {
-    let model = hinged_pair();
+    let model = hinged();
     assert_eq!(count(&model, &[1]), 6);
     let anonymous = models::Model { dofs: Vec::new(), ..model };
     let (_, rigid) = rigid_of(&anonymous, &[rows("pins", &[0])]).expect("zero modes");

@@ -80,7 +80,11 @@ nodes = "nodes.csv"
     }
 
     fn run(&self, flags: &[&str]) -> (Place, Ended) {
-        let place = Place::with(&model());
+        self.run_of(&model(), flags)
+    }
+
+    fn run_of(&self, model: &Model, flags: &[&str]) -> (Place, Ended) {
+        let place = Place::with(model);
         place.write("job.toml", self.job().as_bytes());
         let job = place.text("job.toml");
         let ended = supel(&[&["reduce", &job], flags].concat());
@@ -95,7 +99,12 @@ nodes = "nodes.csv"
 
     #[track_caller]
     fn made_with(&self, flags: &[&str]) -> Made {
-        let (place, ended) = self.run(flags);
+        self.made_of(&model(), flags)
+    }
+
+    #[track_caller]
+    fn made_of(&self, model: &Model, flags: &[&str]) -> Made {
+        let (place, ended) = self.run_of(model, flags);
         ended.expect(ExitCode::Done);
         let (file, job) = (place.text("x.supel"), place.text("job.toml"));
         supel(&["verify", &file]).expect(ExitCode::Done);

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use supel_testing::sources::{files_below, tests_of};
+
 /// The tables: prefix of the lines and their numbers.
 const TABLES: [(&str, &[u32]); 5] = [
     ("S", &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 20, 21, 22, 23, 24, 25, 26, 27]),
@@ -89,33 +91,12 @@ fn what_is_left_out_is_nowhere_in_the_program() {
     }
 }
 
-/// The tests in a folder and the folders in it: names and bodies.
-fn tests_in(folder: &Path, tests: &mut BTreeMap<String, String>) {
-    for entry in fs::read_dir(folder).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            tests_in(&path, tests);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let source = fs::read_to_string(&path).expect("a source");
-            let mut lines = source.lines();
-            while let Some(line) = lines.next() {
-                let Some(indent) = line.strip_suffix("#[test]") else { continue };
-                let mut heads = lines.by_ref().skip_while(|line| line.trim_start().starts_with("#["));
-                let name = heads.next().and_then(|line| line.trim_start().strip_prefix("fn ")?.split_once('('));
-                let Some((name, _)) = name else { continue };
-                let end = format!("{indent}}}");
-                let body: Vec<&str> = lines.by_ref().take_while(|line| *line != end).collect();
-                tests.insert(name.to_owned(), body.join("\n"));
-            }
-        }
-    }
-}
-
-/// The tests of the program and of the component.
+/// The tests of the program and of the component: names and bodies.
 fn tests() -> BTreeMap<String, String> {
-    let mut tests = BTreeMap::new();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    ["tests", "runtime/tests"].iter().for_each(|folder| tests_in(&root.join(folder), &mut tests));
+    let files = ["tests", "runtime/tests"].into_iter().flat_map(|folder| files_below(&root.join(folder)));
+    let tests: BTreeMap<String, String> =
+        files.flat_map(|file| tests_of(&file)).map(|test| (test.name, test.body)).collect();
     assert!(tests.len() > 500, "only {} tests were found", tests.len());
     tests
 }

@@ -3,7 +3,7 @@
 use supel::cli::ExitCode;
 use supel_models::random::SplitMix64;
 use supel_models::transform::{carrying, rounded};
-use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
 
 use crate::healthy::passes;
 use crate::place::{Place, supel};
@@ -113,6 +113,25 @@ fn masses_that_the_frame_hardly_moves_fail_no_file() {
         }
     }
     assert!(n_done >= 20, "{n_done} of 24");
+}
+
+/// A mass on the interior of a free part is far slower with the interface held than the free part is: its frequency keeps its digits, for
+/// the file by itself as for the reduction.
+#[test]
+fn masses_inside_that_are_slower_than_the_free_part_fail_no_file() {
+    let part = brick([6, 3, 2], [1.0, 0.3, 0.2], &Material::STEEL_SI);
+    for ratio in [1e4, 1e7, 1e10] {
+        let model = carrying(&part, &[45], ratio * part.total_mass(0));
+        let place = Place::with(&model);
+        place
+            .reduce(&place.model_flags(), "--interface ends=1,8,15,7,14 --method craig-bampton --modes 6")
+            .expect(ExitCode::Done);
+        let ended = supel(&["verify", &place.text("x.supel"), "--json"]).expect(ExitCode::Done);
+        let report: serde_json::Value = serde_json::from_str(&ended.out).expect("json");
+        let checks = report["checks"].as_array().expect("checks");
+        let frequencies = checks.iter().find(|check| check["name"] == "reduced matrices have the stated frequencies");
+        assert_eq!(frequencies.expect("M-14")["verdict"], "pass", "{ratio:e}: {report:#}");
+    }
 }
 
 /// Nodes of a walk at random with steps of these sizes.

@@ -117,7 +117,7 @@ impl Asked<'_> {
     fn internal_loads(&self, accepted: f64) -> Accuracy {
         let limits = (Some(accepted), LimitSource::Scene);
         let Some(loads) = &self.report.internal_loads else {
-            let why = self.why(&["internal loads", "frequency response"]);
+            let why = self.why(&["frequency response"]);
             return Accuracy::unmeasured(AccuracyMeasure::InternalLoad, limits, why);
         };
         let place = format!("a force on {} at {} Hz", loads.driven, quantity(loads.worst_at_hz, 6));

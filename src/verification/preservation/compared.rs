@@ -207,8 +207,7 @@ impl Compared {
         if let Some(response) = &response {
             self.checks.extend(response::checks(response));
             self.report.response = Some(response.report.clone());
-            let loads = response.full.loads.as_ref().map(FullLoads::compared).transpose();
-            self.report.internal_loads = self.kept("internal loads", loads)?.flatten();
+            self.report.internal_loads = response.full.loads.as_ref().map(FullLoads::compared);
         }
         let monotonicity = boundaries::monotonicity(evidence, references);
         let monotonicity = self.kept("monotonicity of the frequencies", monotonicity)?.flatten();

@@ -18,16 +18,13 @@ use super::super::evidence::Evidence;
 use super::extended::Extended;
 use super::leading::leading;
 use super::outcome::{InternalLoads, LoadSample};
-use super::scan::top;
+use super::samples::merged;
+use super::scan::{MAX_FLOPS, WIDEST_STEP, highest, top};
 use super::shift::shift;
 use crate::dense;
 use crate::eigen::{Spectral, complex_shift};
 use crate::error::Result;
 
-/// Relative distance of the points of a scan.
-const STEP: f64 = 0.02;
-/// Floating-point operations of its points: a second of one core.
-const MAX_FLOPS: f64 = 1e10;
 /// Tops that are sharpened.
 const MAX_TOPS: usize = 8;
 
@@ -36,6 +33,8 @@ pub(super) struct FullLoads<'a> {
     /// Whose basis the answers of the reduced model are on.
     own: &'a Evidence<'a>,
     samples_hz: Vec<f64>,
+    /// The errors of the whole reduced model at the samples.
+    of_whole: Vec<Worst>,
     eta: f64,
     /// The full model on its extended basis, and Ψ_eᵀKΨ_e.
     spectral: Spectral,
@@ -56,37 +55,33 @@ impl<'a> FullLoads<'a> {
     /// A reduced pencil that is not definite.
     pub(super) fn new(own: &'a Evidence<'a>, extended: Extended<'_>, samples_hz: &[f64], eta: f64) -> Result<Self> {
         let (spectral, stiffness) = extended.into_pencil();
-        let mut loads = Self { own, samples_hz: samples_hz.to_vec(), eta, spectral, stiffness };
-        loads.scan()?;
+        let (samples_hz, of_whole) = (samples_hz.to_vec(), Vec::new());
+        let mut loads = Self { own, samples_hz, of_whole, eta, spectral, stiffness };
+        let reduced = loads.reduced(own.reduction.n_reduced())?;
+        (loads.samples_hz, loads.of_whole) = loads.scanned(&reduced).into_iter().unzip();
         Ok(loads)
     }
 
-    /// Adds samples: points between the ends of the band, and the highest tops of the error.
-    fn scan(&mut self) -> Result<()> {
-        let reduced = self.reduced(self.own.reduction.n_reduced())?;
+    /// The samples, points between them, and the highest tops of the error there, ascending.
+    fn scanned(&self, reduced: &Spectral) -> Vec<(f64, Worst)> {
         let (low, high) = (self.samples_hz[0], self.samples_hz[self.samples_hz.len() - 1]);
         let r = self.spectral.n() as f64;
         // Answers and forces of each driven dof, real and imaginary part, twice.
         let flops = 16.0 * r * r * self.own.partition.n_interface() as f64;
-        let n_steps = ((high / low).ln() / STEP).ceil().min(MAX_FLOPS / flops).max(1.0) as usize;
+        let n_steps = ((high / low).ln() / WIDEST_STEP).ceil().min(MAX_FLOPS / flops).max(1.0) as usize;
         let at = |i: usize| low * (high / low).powf(i as f64 / n_steps as f64);
-        let mut points: Vec<f64> = (1..n_steps).map(at).chain(self.samples_hz.iter().copied()).collect();
-        points.sort_by(f64::total_cmp);
-        points.dedup();
-        let error = |hz: f64| self.error_at(hz, &reduced).error;
-        let errors: Vec<f64> = points.par_iter().map(|hz| error(*hz)).collect();
+        let points = merged((1..n_steps).map(at).chain(self.samples_hz.iter().copied()).collect());
+        let found = |hz: f64| (hz, self.error_at(hz, reduced));
+        let mut all: Vec<(f64, Worst)> = points.par_iter().map(|hz| found(*hz)).collect();
+        let error = |i: usize| all[i].1.error;
         let neighbours = |i: usize| [i.saturating_sub(1), (i + 1).min(points.len() - 1)];
-        let is_top = |i: &usize| neighbours(*i).into_iter().all(|next| !dense::worse(errors[next], errors[*i]));
-        let mut tops: Vec<usize> = (0..points.len()).filter(is_top).collect();
-        tops.sort_by(|a, b| errors[*b].total_cmp(&errors[*a]).then(a.cmp(b)));
-        tops.truncate(MAX_TOPS);
-        let sharpened: Vec<f64> =
-            tops.par_iter().map(|i| top(neighbours(*i).map(|next| points[next]), &error).0).collect();
-        points.extend(sharpened);
-        points.sort_by(f64::total_cmp);
-        points.dedup();
-        self.samples_hz = points;
-        Ok(())
+        let is_top = |i: &usize| neighbours(*i).into_iter().all(|next| !dense::worse(error(next), error(*i)));
+        let tops = highest((0..points.len()).filter(is_top), &error, MAX_TOPS);
+        let sharpened = |i: &usize| found(top(neighbours(*i).map(|next| points[next]), &|hz| found(hz).1.error).0);
+        let sharpened: Vec<(f64, Worst)> = tops.par_iter().map(sharpened).collect();
+        all.extend(sharpened);
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all
     }
 
     /// The reduced model that has the leading `n` columns of the basis.
@@ -96,20 +91,17 @@ impl<'a> FullLoads<'a> {
     }
 
     /// The comparison with the whole basis, for the report.
-    ///
-    /// # Errors
-    /// A reduced pencil that is not definite.
-    pub(super) fn compared(&self) -> Result<InternalLoads> {
-        let errors = self.errors(self.own.reduction.n_reduced())?;
+    pub(super) fn compared(&self) -> InternalLoads {
+        let errors = &self.of_whole;
         let at = (0..errors.len()).fold(0, |a, b| if dense::worse(errors[b].error, errors[a].error) { b } else { a });
         let partition = self.own.partition;
-        let samples = self.samples_hz.iter().zip(&errors);
-        Ok(InternalLoads {
+        let samples = self.samples_hz.iter().zip(errors);
+        InternalLoads {
             worst: errors[at].error,
             worst_at_hz: self.samples_hz[at],
             driven: partition.name_of(partition.n_internal + errors[at].dof),
             samples: samples.map(|(hz, worst)| LoadSample { frequency_hz: *hz, error: worst.error }).collect(),
-        })
+        }
     }
 
     /// The largest error of the reduced model that has the leading `n` columns of the basis.
@@ -117,12 +109,9 @@ impl<'a> FullLoads<'a> {
     /// # Errors
     /// A reduced pencil that is not definite.
     pub(super) fn worst(&self, n: usize) -> Result<f64> {
-        Ok(dense::worst(self.errors(n)?.into_iter().map(|worst| worst.error)))
-    }
-
-    fn errors(&self, n: usize) -> Result<Vec<Worst>> {
         let reduced = self.reduced(n)?;
-        Ok(self.samples_hz.par_iter().map(|hz| self.error_at(*hz, &reduced)).collect())
+        let errors: Vec<f64> = self.samples_hz.par_iter().map(|hz| self.error_at(*hz, &reduced).error).collect();
+        Ok(dense::worst(errors))
     }
 
     fn error_at(&self, frequency_hz: f64, reduced: &Spectral) -> Worst {

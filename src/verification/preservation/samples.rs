@@ -78,7 +78,8 @@ fn spread(all: Vec<f64>) -> Vec<f64> {
     (0..MAX_RESONANCES).map(|i| all[i * (n - 1) / (MAX_RESONANCES - 1)]).collect()
 }
 
-fn merged(mut all: Vec<f64>) -> Vec<f64> {
+/// Ascending, with one of those that are nearly the same.
+pub(super) fn merged(mut all: Vec<f64>) -> Vec<f64> {
     all.sort_by(f64::total_cmp);
     all.dedup_by(|b, a| *b - *a <= SAME * *b);
     all

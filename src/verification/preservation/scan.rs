@@ -19,13 +19,13 @@ use crate::eigen::Spectral;
 /// Steps in the width η f of a resonance or antiresonance. Half a step from its top the response is 1/√(1 + 1/16) of the peak: 0.3 dB.
 const STEPS_IN_A_PEAK: f64 = 4.0;
 /// Relative distance of points at most, however wide the damping makes a resonance: where responses cancel an error may be far narrower.
-const WIDEST_STEP: f64 = 0.02;
+pub(super) const WIDEST_STEP: f64 = 0.02;
 /// Points of a scan at most; η below 1/200 needs more over two decades.
 const MAX_POINTS: usize = 4096;
 /// Points of a scan where its products are large.
 const MIN_POINTS: usize = 256;
 /// Floating-point operations that a scan may cost: a second of one core.
-const MAX_FLOPS: f64 = 1e10;
+pub(super) const MAX_FLOPS: f64 = 1e10;
 /// Peaks that become samples.
 const MAX_PEAKS: usize = 12;
 /// Intervals whose chords pass by zero that are followed at most.
@@ -195,7 +195,7 @@ impl Point {
 }
 
 /// The intervals or points of the highest values, at most so many, in descending order.
-fn highest(all: impl Iterator<Item = usize>, value: &dyn Fn(usize) -> f64, at_most: usize) -> Vec<usize> {
+pub(super) fn highest(all: impl Iterator<Item = usize>, value: &dyn Fn(usize) -> f64, at_most: usize) -> Vec<usize> {
     let mut all: Vec<usize> = all.collect();
     all.sort_by(|a, b| value(*b).total_cmp(&value(*a)).then(a.cmp(b)));
     all.truncate(at_most);

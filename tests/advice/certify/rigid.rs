@@ -1,5 +1,6 @@
 //! Rigid-body modes: all of them, none of them, some of them.
 
+use serde_json::{Value, json};
 use supel::cli::ExitCode;
 
 use super::{bar, document, lowest, missing, of_kind, place_of, verdict};
@@ -47,6 +48,8 @@ fn a_result_of_rigid_body_modes_alone_is_certified() {
         let found = document(&place, "--strict", ExitCode::Done);
         assert_eq!((&found["verdict"], of_kind(&found, "rigid-body").len()), (&"pass".into(), 6), "{found}");
         assert_eq!((verdict(&found, "C-04"), verdict(&found, "C-05")), (Some("pass"), Some("pass")), "{found}");
+        // The rounding of a zero is no end of a band.
+        assert_eq!((&found["band_hz"], &found["count"]), (&json!([0.0, 0.0]), &Value::Null), "{found}");
         // Asked for, the band ends among the zeros as well.
         let found = document(&place, "--band 0,0.001", ExitCode::Done);
         assert_eq!(missing(&found).len(), 0, "{found}");
