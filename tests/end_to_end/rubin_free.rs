@@ -222,14 +222,20 @@ fn a_free_interface_is_for_rubins_method_alone() {
         let told = refused.expect(ExitCode::ModelPhysics).err;
         assert!(told.contains("E-INTERFACE-RANK"), "{method}: {told}");
     }
-    let job = "interface = [{ name = \"pin\", nodes = [1] }]\n\
-        reduction = { method = \"rubin\", modes = { count = 5 } }\n\
-        scene = { analysis = \"static\", gravity = false }\n\
-        write = { superelement = \"x.supel\" }\n\
-        [model]\nstiffness = \"K.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n";
-    place.write("job.toml", job.as_bytes());
-    let told = supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::ModelPhysics).err;
+    let refused = |method: &str| {
+        let job = format!(
+            "interface = [{{ name = \"pin\", nodes = [1] }}]\n\
+             reduction = {{ {method} }}\n\
+             scene = {{ analysis = \"static\", gravity = false }}\n\
+             write = {{ superelement = \"x.supel\" }}\n\
+             [model]\nstiffness = \"K.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n"
+        );
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::ModelPhysics).err
+    };
+    let told = refused("method = \"rubin\", modes = { count = 5 }");
     assert!(told.contains("E-INTERFACE-RANK"), "{told}");
+    assert_eq!(told, refused("method = \"guyan\""), "found before anything is factored");
 }
 
 /// The plan says that constraint modes do not exist there, and the matrices of the file are Rubin's already.

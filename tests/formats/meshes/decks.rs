@@ -71,6 +71,12 @@ fn surfaces_are_groups_of_the_nodes_on_their_faces() {
     assert_eq!(group(&nodes, "SKIN").len(), 12, "every node of two bricks is outside");
     assert_eq!(group(&nodes, "N (surface)"), [11, 12, 13, 14]);
     assert!(!nodes.groups.contains_key("UNION"));
+
+    // A brick of twenty nodes has eight on each face.
+    let numbered = (1..=20).map(|label| format!("{label}, {label}, 0, 0\n")).collect::<String>();
+    let brick = (1..=20).map(|label| label.to_string()).collect::<Vec<_>>().join(", ");
+    let deck = format!("*NODE\n{numbered}*ELEMENT, TYPE=C3D20R\n1, {brick}\n*SURFACE, NAME=UP\n1, S2\n");
+    assert_eq!(group(&read_text("quadratic.inp", deck).expect("a deck"), "UP"), [5, 6, 7, 8, 13, 14, 15, 16]);
 }
 
 /// Faces of patches come from the cells of the deck.
