@@ -19,7 +19,7 @@ impl OwnFiles {
     /// # Errors
     /// [`Error::OutputIsInput`], [`Error::OutputTwice`].
     pub(super) fn of(inputs: &[Named], outputs: &[Named]) -> Result<Self> {
-        refuse(&told(inputs, ""), &told(outputs, ""))?;
+        refuse(&roles(inputs, ""), &keys(outputs, ""))?;
         Ok(Self(outputs.iter().map(|(_, path)| path.clone()).collect()))
     }
 
@@ -37,17 +37,20 @@ pub(super) fn refuse_shared<'a>(jobs: impl Iterator<Item = (&'a Path, &'a Job, O
     let (mut all_inputs, mut all_outputs) = (Vec::new(), Vec::new());
     for (name, job, document) in jobs {
         let owner = format!(" of {}", name.display());
-        all_inputs.extend(told(&inputs(job, document), &owner));
-        all_outputs.extend(told(&outputs(&job.write), &owner));
+        all_inputs.extend(roles(&inputs(job, document), &owner));
+        all_outputs.extend(keys(&outputs(&job.write), &owner));
     }
     refuse(&all_inputs, &all_outputs)
 }
 
-/// Files with what messages call them: keys and flags as they are typed, with whose they are.
-fn told(files: &[Named], owner: &str) -> Vec<(String, PathBuf)> {
-    let is_typed = |name: &str| !name.contains(' ');
-    let name = |name: &str| if is_typed(name) { format!("`{name}`{owner}") } else { format!("{name}{owner}") };
-    files.iter().map(|(called, path)| (name(called), path.clone())).collect()
+/// Inputs with their roles, and whose they are.
+fn roles(inputs: &[Named], owner: &str) -> Vec<(String, PathBuf)> {
+    inputs.iter().map(|(role, path)| (format!("{role}{owner}"), path.clone())).collect()
+}
+
+/// Outputs with their keys or flags as they are typed, and whose they are.
+fn keys(outputs: &[Named], owner: &str) -> Vec<(String, PathBuf)> {
+    outputs.iter().map(|(key, path)| (format!("`{key}`{owner}"), path.clone())).collect()
 }
 
 fn refuse(inputs: &[(String, PathBuf)], outputs: &[(String, PathBuf)]) -> Result<()> {

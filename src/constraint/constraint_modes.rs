@@ -95,26 +95,26 @@ fn by_factor<'a>(
     let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
     let nothing = |n_r: usize| LowRank { tall: Mat::zeros(n_i, n_r), wide: Mat::zeros(n_r, n_b) };
     let solved = StaticModes::by_factor(factor, nothing(0));
-    let schur = factor.condensed();
+    let schur = (form == Statics::Condensed).then(|| factor.condensed());
     let (mut carried, mut raw_rigid_error, mut correction) = (Carried::nothing(n_b), 0.0, nothing(0));
     if n_r > 0 && n_b > 0 {
         let [u_i, u_b] = motions_to_carry(partition, rigid);
         raw_rigid_error = rigid_error(partition, &solved, rigid.orthonormal.as_ref()).value;
-        let lift = match form {
-            Statics::Condensed => {
+        let lift = match &schur {
+            Some(schur) => {
                 let outer = diagonal(&partition.stiffness).split_off(n_i);
                 let inside: Vec<f64> = (0..n_b).map(|j| (outer[j] - schur[(j, j)]).max(0.0)).collect();
                 left_inverse_by(partition, &inside, u_b.as_ref())
             }
-            _ => left_inverse_of(partition, &solved, u_b.as_ref()),
+            None => left_inverse_of(partition, &solved, u_b.as_ref()),
         };
         correction = LowRank { tall: defect(&solved, u_i.as_ref(), u_b.as_ref()), wide: lift.clone() };
         carried = Carried { motions: u_b, lift };
     }
     let modes = StaticModes::by_factor(factor, correction);
-    let (stiffness, cancellation) = match form {
-        Statics::Condensed => (schur, sampled_cancellation(partition, &modes)),
-        _ => condensed_stiffness(partition, &modes),
+    let (stiffness, cancellation) = match schur {
+        Some(schur) => (schur, sampled_cancellation(partition, &modes)),
+        None => condensed_stiffness(partition, &modes),
     };
     let modes = modes.with_stiffness(stiffness.clone());
     ConstraintModes { modes, carried, stiffness, cancellation, raw_rigid_error, attachment: None }

@@ -98,7 +98,7 @@ pub(crate) fn left_inverse(partition: &Partition, modes: MatRef<'_, f64>, u_b: M
     left_inverse_by(partition, &weights_inside(partition, modes), u_b)
 }
 
-/// The same of constraint modes that are made some columns at a time.
+/// U_B⁺ of [`left_inverse`] by constraint modes that are made some columns at a time.
 pub(super) fn left_inverse_of(partition: &Partition, modes: &StaticModes<'_>, u_b: MatRef<'_, f64>) -> Mat<f64> {
     let of_panel = |columns| weights_inside(partition, modes.columns(columns).as_ref());
     let inside: Vec<f64> = panels(modes.n_interface()).flat_map(of_panel).collect();
