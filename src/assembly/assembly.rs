@@ -261,16 +261,16 @@ impl Assembly {
         if n == 0 {
             return Err(Error::AssemblyHeld);
         }
-        let [mut stiffness, mut mass, mut rounding] = [0; 3].map(|_| Mat::<f64>::zeros(n, n));
+        let [mut stiffness, mut mass, mut rounding, mut doubt] = [0; 4].map(|_| Mat::<f64>::zeros(n, n));
         let mut first = 0;
         let mut blocks = Vec::new();
         for component in &self.components {
             let block = numbers[first..first + component.n_coordinates()].to_vec();
-            let terms = [&component.stiffness, &component.mass].map(|matrix| dense::absolute(matrix.as_ref()));
             add(&mut stiffness, &component.stiffness, &block, 1.0);
             add(&mut mass, &component.mass, &block, 1.0);
-            add(&mut rounding, &terms[0], &block, NOISE_FACTOR * f64::EPSILON);
-            add(&mut rounding, &terms[1], &block, NOISE_FACTOR * component.rounding + component.known_to);
+            let terms = dense::absolute(component.stiffness.as_ref());
+            add(&mut rounding, &terms, &block, NOISE_FACTOR * f64::EPSILON);
+            add(&mut doubt, &component.doubt, &block, 1.0);
             first += block.len();
             blocks.push(block);
         }
@@ -287,7 +287,7 @@ impl Assembly {
             rigid.as_mut().row_mut(*number).copy_from(motions.as_ref().row(row));
         }
         let rigid = dense::orthonormal(rigid.as_ref(), mass.as_ref());
-        Ok(Assembled { pencil: Pencil { stiffness, mass, rigid, rounding }, blocks })
+        Ok(Assembled { pencil: Pencil { stiffness, mass, rigid, rounding, doubt }, blocks })
     }
 
     /// What a coordinate of the assembly is called: the first of those that are joined in it.

@@ -4,8 +4,9 @@ use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Flag, Superelement};
 
 use super::omitted::{Omitted, omitted};
+use super::spectrum::Pencil;
 use crate::audit::negative_mass;
-use crate::dense::{self, unpacked};
+use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::error::{Error, Result};
 
 /// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
@@ -26,11 +27,9 @@ pub struct Component {
     pub(super) mass: Mat<f64>,
     /// Û, r × n_r.
     pub(super) rigid: Mat<f64>,
-    /// The eigenvalue that rounding of K̂ can make, as rigid-body motion shows it.
-    pub(super) rounding: f64,
-    /// How far the first eigenvalue may be off by the error bar that the file states: what rounding of the full matrices makes of an energy,
-    /// which a component without rigid-body motion shows nowhere else.
-    pub(super) known_to: f64,
+    /// What is not known of an energy xᵀK̂x is xᵀDx, D r × r: the energy that rigid-body motion has by rounding of K̂, and beyond it
+    /// the error bar of the first mode.
+    pub(super) doubt: Mat<f64>,
 }
 
 impl Component {
@@ -54,14 +53,19 @@ impl Component {
         if let Some(value) = negative_mass(mass.as_ref())? {
             return Err(Error::AssemblyIndefinite { what: format!("component {name}"), matrix: "mass", value });
         }
-        let rounding = rounding_of(stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
-        let unit = energy_unit(&superelement);
+        let motions = dense::orthonormal(rigid.as_ref(), mass.as_ref());
+        let rounding = largest_energy(stiffness.as_ref(), motions.as_ref())?;
+        let mut unit = energy_unit(&superelement);
+        if rounding > LARGEST_RIGID_ENERGY * unit {
+            // A mode that the file states may be that of a heavy mass with the interface held, far slower than the free component.
+            unit = unit.max(first_elastic((&stiffness, &mass), &motions)?.unwrap_or(0.0));
+        }
         if rounding > LARGEST_RIGID_ENERGY * unit {
             return Err(Error::AssemblyRigid { name, value: rounding / unit });
         }
         let omitted = omitted(&superelement, stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
-        let known_to = known_to(&superelement);
-        Ok(Self { name, superelement, omitted, stiffness, mass, rigid, rounding, known_to })
+        let doubt = doubt(mass.as_ref(), motions.as_ref(), (NOISE_FACTOR * rounding, known_to(&superelement)));
+        Ok(Self { name, superelement, omitted, stiffness, mass, rigid, doubt })
     }
 
     /// r.
@@ -102,13 +106,33 @@ pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The largest eigenvalue that rounding made of rigid-body motion, whose energy should be nothing, in any combination of the motions.
-fn rounding_of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: MatRef<'_, f64>) -> Result<f64> {
-    let motions = dense::orthonormal(rigid, mass);
-    let mut energies = dense::gram(motions.as_ref(), dense::product(stiffness, motions.as_ref()).as_ref());
+/// The first eigenvalue of the free component that is more than rounding.
+fn first_elastic((stiffness, mass): (&Mat<f64>, &Mat<f64>), motions: &Mat<f64>) -> Result<Option<f64>> {
+    let noise = NOISE_FACTOR * f64::EPSILON;
+    let pencil = Pencil {
+        stiffness: stiffness.clone(),
+        mass: mass.clone(),
+        rigid: motions.clone(),
+        rounding: dense::absolute(stiffness.as_ref()) * faer::Scale(noise),
+        doubt: Mat::zeros(mass.nrows(), mass.ncols()),
+    };
+    Ok(pencil.spectrum(None)?.and_then(|spectrum| spectrum.first_elastic()))
+}
+
+/// The largest energy in any combination of M-orthonormal motions.
+fn largest_energy(stiffness: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> Result<f64> {
+    let mut energies = dense::gram(motions, dense::product(stiffness, motions).as_ref());
     dense::symmetrise(&mut energies);
     let (values, _) = dense::symmetric_eigen(energies.as_ref())?;
     Ok(values.into_iter().fold(0.0, |most, value| most.max(value.abs())))
+}
+
+/// α M̂ + β (M̂ − M̂R(M̂R)ᵀ), R rigid-body motions with RᵀM̂R = 1: what rounding of the full matrices makes of an energy, β of an eigenvalue,
+/// is of motion beyond theirs. It has no moduli, which next to a heavy mass are far more than what such motion moves.
+fn doubt(mass: MatRef<'_, f64>, motions: MatRef<'_, f64>, (rounding, known_to): (f64, f64)) -> Mat<f64> {
+    let momenta = dense::product(mass, motions);
+    let rigid = dense::product(momenta.as_ref(), momenta.transpose());
+    Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| (rounding + known_to) * mass[(i, j)] - known_to * rigid[(i, j)])
 }
 
 /// How far the first eigenvalue of a mode may be off by its error bar; zero without modes, and the eigenvalue itself where no bar is known.

@@ -266,6 +266,7 @@ fn sprung(pencil: &Pencil, g: &Mat<f64>, kappa: &[f64]) -> Pencil {
             &|i, c| noise * stiff[(i, c)].abs(),
             &|c| noise * kappa[c],
         ),
+        doubt: extended(&|i, j| pencil.doubt[(i, j)], &|_, _| 0.0, &|_| 0.0),
         rigid: Mat::from_fn(n + n_springs, pencil.rigid.ncols(), |i, j| {
             if i < n { pencil.rigid[(i, j)] } else { carried[(i - n, j)] }
         }),

@@ -222,7 +222,8 @@ fn stated_spectrum(
 ) -> Result<Result<Spectrum, &'static str>> {
     let noise = NOISE_FACTOR * f64::EPSILON;
     let rounding = Mat::from_fn(k.nrows(), k.ncols(), |i, j| noise * k[(i, j)].abs());
-    let pencil = Pencil { stiffness: k.to_owned(), mass: m.to_owned(), rigid, rounding };
+    let doubt = Mat::zeros(k.nrows(), k.ncols());
+    let pencil = Pencil { stiffness: k.to_owned(), mass: m.to_owned(), rigid, rounding, doubt };
     let Some(spectrum) = pencil.spectrum(None)? else { return Ok(Err(OTHER_FREQUENCIES)) };
     let stated: Vec<f64> = superelement.tensors().frequencies.iter().map(|omega| omega * omega).collect();
     let is_found = |(j, stated): (usize, &f64)| {

@@ -3,8 +3,9 @@
 //! ```text
 //! K, M    n × n       symmetric
 //! R       n × n_r     RᵀMR = 1, rigid-body motions
-//! (K + β MR(MR)ᵀ) y = λ (M − MR(MR)ᵀ) y         R has no mass there, and its eigenvalues are infinite
-//! x = y − R (MR)ᵀy,  λ = xᵀKx / xᵀMx             Rayleigh quotient
+//! T    n × (n − n_r)  RᵀMT = 0, a basis of all other motions
+//! TᵀKT y = λ TᵀMT y
+//! x = T y,  λ = xᵀKx / xᵀMx             Rayleigh quotient
 //! ```
 //! Eigenvalues are found as θ = 1/(λ + α), which is zero for motions without mass; nothing is divided by the mass.
 
@@ -14,8 +15,6 @@ use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{lowest_eigenpairs, lowest_ratio_of};
 use crate::error::Result;
 
-/// β over α: far enough from the elastic eigenvalues for what rounding leaves of the mass of R to stay below that of the others.
-const RIGID_STIFFNESS: f64 = 1e6;
 /// α is taken anew until it is this near to the first elastic eigenvalue, to which rounding is then relative.
 const NEAR: f64 = 16.0;
 /// How often α is taken anew; each time it comes nearer by as many powers of ten as a double has digits.
@@ -33,13 +32,15 @@ pub(super) struct Pencil {
     pub(super) rigid: Mat<f64>,
     /// How far each entry of K may be off.
     pub(super) rounding: Mat<f64>,
+    /// What is not known of an energy xᵀKx besides is x times this times x.
+    pub(super) doubt: Mat<f64>,
 }
 
 /// Elastic eigenpairs, ascending.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum {
     pub(super) lambda: Vec<f64>,
-    /// How far rounding of the entries can move each eigenvalue.
+    /// How far rounding can move each eigenvalue.
     pub(super) rounding: Vec<f64>,
     /// At unit modal mass, n × number of eigenvalues.
     pub(super) shapes: Mat<f64>,
@@ -56,14 +57,16 @@ impl Pencil {
         let (n, n_r) = (self.stiffness.nrows(), self.rigid.ncols());
         let momenta = dense::product(self.mass.as_ref(), self.rigid.as_ref());
         let mut alpha = near.or_else(|| self.lowest_ratio(&momenta)).unwrap_or(1.0);
-        let lifted = dense::product(momenta.as_ref(), momenta.transpose());
-        let mass = Mat::from_fn(n, n, |i, j| self.mass[(i, j)] - 0.5 * (lifted[(i, j)] + lifted[(j, i)]));
+        let others = self.others(&momenta, alpha);
+        let of_others = |a: &Mat<f64>| {
+            let mut form = dense::gram(others.as_ref(), dense::product(a.as_ref(), others.as_ref()).as_ref());
+            dense::symmetrise(&mut form);
+            form
+        };
+        let (stiffness, mass) = (of_others(&self.stiffness), of_others(&self.mass));
         let mut best = None;
         for _ in 0..MAX_SHIFTS {
-            let beta = RIGID_STIFFNESS * alpha;
-            let stiffness =
-                Mat::from_fn(n, n, |i, j| self.stiffness[(i, j)] + 0.5 * beta * (lifted[(i, j)] + lifted[(j, i)]));
-            let (values, shapes) = lowest_eigenpairs(stiffness.as_ref(), mass.as_ref(), alpha, n)?;
+            let (values, shapes) = lowest_eigenpairs(stiffness.as_ref(), mass.as_ref(), alpha, n - n_r)?;
             if values.is_empty() && n > n_r && mass.norm_max() > 0.0 {
                 if best.is_some() {
                     break;
@@ -71,7 +74,7 @@ impl Pencil {
                 alpha *= RAISED;
                 continue;
             }
-            let spectrum = self.quotients(shapes, &momenta);
+            let spectrum = self.quotients(dense::product(others.as_ref(), shapes.as_ref()), &momenta);
             let first = spectrum.first_elastic();
             best = Some(spectrum);
             match first {
@@ -80,6 +83,15 @@ impl Pencil {
             }
         }
         Ok(best)
+    }
+
+    /// T, of columns that are orthonormal in the scales of K + αM. Nothing is added to K that would drown it next to a heavy mass.
+    fn others(&self, momenta: &Mat<f64>, alpha: f64) -> Mat<f64> {
+        let (n, n_r) = (momenta.nrows(), momenta.ncols());
+        let scale: Vec<f64> =
+            (0..n).map(|i| dense::power_of_two_root(self.stiffness[(i, i)] + alpha * self.mass[(i, i)])).collect();
+        let q = Mat::from_fn(n, n_r, |i, j| scale[i] * momenta[(i, j)]).qr().compute_Q();
+        Mat::from_fn(n, n - n_r, |i, j| scale[i] * q[(i, n_r + j)])
     }
 
     /// The lowest ratio of the diagonals of K and of the mass that rigid-body motion leaves.
@@ -103,7 +115,9 @@ impl Pencil {
         let along = dense::gram(momenta.as_ref(), x.as_ref());
         dense::add_product(x.as_mut(), -1.0, self.rigid.as_ref(), along.as_ref());
         let (energies, masses) = (quadratic(&self.stiffness, &x), quadratic(&self.mass, &x));
-        let noise = quadratic(&self.rounding, &dense::absolute(x.as_ref()));
+        let (of_entries, doubts) =
+            (quadratic(&self.rounding, &dense::absolute(x.as_ref())), quadratic(&self.doubt, &x));
+        let noise: Vec<f64> = of_entries.iter().zip(doubts).map(|(noise, doubt)| noise + doubt.max(0.0)).collect();
         let mut order: Vec<usize> = (0..x.ncols()).filter(|j| masses[*j] > least[*j].max(0.0)).collect();
         order.sort_by(|a, b| (energies[*a] / masses[*a]).total_cmp(&(energies[*b] / masses[*b])));
         Spectrum {

@@ -79,7 +79,7 @@ impl<'a> Content<'a> {
     pub(super) fn of(superelement: &'a Superelement, noise: Option<ModelNoise>) -> Result<Self> {
         let tensors = superelement.tensors();
         let (k, u) = (unpacked(&tensors.stiffness), unpacked(&tensors.rigid_body_modes));
-        let m = if has_mass(superelement) { unpacked(&tensors.mass) } else { unit_mass(&k) };
+        let m = if has_mass(superelement) { unpacked(&tensors.mass) } else { unit_mass(&k, u.as_ref()) };
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
         let stated = lambda.iter().copied().find(|lambda| *lambda > 0.0);
         let parts = (k.as_ref(), m.as_ref(), u.as_ref());
@@ -281,11 +281,21 @@ pub(super) fn has_mass(superelement: &Superelement) -> bool {
     !superelement.metadata().flags.contains(&Flag::StiffnessOnly)
 }
 
-/// A diagonal mass with which the coordinates of a stiffness have frequencies near one.
-pub(super) fn unit_mass(stiffness: &Mat<f64>) -> Mat<f64> {
-    let largest = stiffness.norm_max();
-    let of = |i: usize| if stiffness[(i, i)] > 0.0 { stiffness[(i, i)] } else { largest.max(f64::MIN_POSITIVE) };
-    Mat::from_fn(stiffness.nrows(), stiffness.ncols(), |i, j| if i == j { of(i) } else { 0.0 })
+/// A diagonal mass with which the coordinates of a stiffness have frequencies near one. Where a body has no coordinates but those of its
+/// motions as a whole, the rounding that K̂ has instead of nothing is no size: they get the largest one.
+pub(super) fn unit_mass(stiffness: &Mat<f64>, motions: MatRef<'_, f64>) -> Mat<f64> {
+    /// Of a coordinate, beyond what rigid-body motion moves of it: digits of Û.
+    const ALONE: f64 = 1e-6;
+    let r = stiffness.nrows();
+    let mut left = Mat::<f64>::identity(r, r);
+    if (1..=r).contains(&motions.ncols()) {
+        let shares = dense::least_squares(motions, left.as_ref());
+        dense::add_product(left.as_mut(), -1.0, motions, shares.as_ref());
+    }
+    let is_carried = |i: usize| dense::norm(dense::column(left.as_ref(), i)) < ALONE;
+    let largest = stiffness.norm_max().max(f64::MIN_POSITIVE);
+    let of = |i: usize| if stiffness[(i, i)] > 0.0 && !is_carried(i) { stiffness[(i, i)] } else { largest };
+    Mat::from_fn(r, r, |i, j| if i == j { of(i) } else { 0.0 })
 }
 
 /// The rank that the mass of a file has by its method, where that is less than r.

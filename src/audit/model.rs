@@ -110,7 +110,8 @@ impl<'a> Reference<'a> {
                     true => (given.modes.as_ref(), RigidSource::Geometric),
                     false => (zero.orthonormal.as_ref(), RigidSource::Algebraic),
                 };
-                let whole = Motions { carried: &given, relieved: all, numbers: &[], source };
+                let mass = plan.mass();
+                let whole = Motions { carried: &given, relieved: all, numbers: &[], source, mass };
                 match (asked, answers) {
                     (Some(asked), Some(answers)) => with_attachment(partition, (asked, &answers), whole)?,
                     (asked, _) => {

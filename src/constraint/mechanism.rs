@@ -146,7 +146,7 @@ fn stiffer_motion(partition: &Partition, constraint: &ConstraintModes<'_>, rigid
     Ok(followed(constraint, z.as_ref().subcols(n_soft, (values.len() - n_soft).min(1))))
 }
 
-/// Eigenvalues of S with its rigid-body motions lifted, in the scales of the interface dofs, ascending, and its eigenvectors.
+/// Eigenvalues of S in the scales of the interface dofs, ascending, and its eigenvectors, without those of rigid-body motion.
 fn interface_motions(
     partition: &Partition,
     constraint: &ConstraintModes<'_>,
@@ -158,11 +158,13 @@ fn interface_motions(
     if rigid.count() > 0 && n_b > 0 {
         let u_b = Mat::from_fn(n_b, rigid.count(), |i, j| rigid.orthonormal[(n_i + i, j)] / scale[i]);
         let z = u_b.qr().compute_thin_Q();
-        dense::add_product(lifted.as_mut(), 1.0, z.as_ref(), z.transpose());
+        // Above all others, which are no more than the trace: entries of the diagonal are less than those of DKD, and these than two.
+        dense::add_product(lifted.as_mut(), 2.0 * n_b as f64, z.as_ref(), z.transpose());
         dense::symmetrise(&mut lifted);
     }
     let (values, vectors) = dense::symmetric_eigen(lifted.as_ref())?;
-    Ok((values, Mat::from_fn(n_b, n_b, |i, j| scale[i] * vectors[(i, j)])))
+    let n = n_b.saturating_sub(rigid.count());
+    Ok((values[..n].to_vec(), Mat::from_fn(n_b, n, |i, j| scale[i] * vectors[(i, j)])))
 }
 
 fn n_soft(partition: &Partition, constraint: &ConstraintModes<'_>, values: &[f64]) -> usize {

@@ -4,6 +4,7 @@ use faer::Mat;
 
 use super::motions::{Body, Motions};
 use crate::dense;
+use crate::eigen::zero;
 use crate::error::Result;
 use crate::rigid::{NO_MASS, moving_directions};
 
@@ -39,13 +40,12 @@ impl Free {
         let terms = dense::gram(magnitudes.as_ref(), rows(&motions.terms).as_ref());
         let (massive, massless) = by_mass(&mass, &moving)?;
         let look = |directions: &Mat<f64>| energies(motions, directions, &energy, &terms);
-        let ((of_massive, noise), (of_massless, noise_without)) = (look(&massive)?, look(&massless)?);
-        let count = |energies: &[f64], noise: f64| energies.iter().filter(|e| **e <= FREE_BELOW_NOISE * noise).count();
+        let (of_massive, of_massless) = (look(&massive)?, look(&massless)?);
         Ok(Self {
             n_moving: moving.ncols(),
-            n_free: count(&of_massive, noise) + count(&of_massless, noise_without),
-            largest_quotient: of_massive.iter().fold(0.0, |max, energy| max.max(energy.abs())),
-            noise,
+            n_free: n_free(&of_massive) + n_free(&of_massless),
+            largest_quotient: of_massive.iter().fold(0.0, |max, of| max.max(of.energy.abs())),
+            noise: of_massive.iter().fold(0.0, |max, of| max.max(of.noise)),
             orthonormal: massive,
         })
     }
@@ -65,19 +65,30 @@ fn by_mass(mass: &Mat<f64>, moving: &Mat<f64>) -> Result<(Mat<f64>, Mat<f64>)> {
     Ok((of(&massive, &unit), of(&massless, &|_| 1.0)))
 }
 
-/// Energies of some directions in ascending order, and what rounding of the data can make of one.
-fn energies(
-    motions: &Motions<'_>,
-    directions: &Mat<f64>,
-    energy: &Mat<f64>,
-    terms: &Mat<f64>,
-) -> Result<(Vec<f64>, f64)> {
+/// How many cost no energy, each by its own rounding as in [`crate::rigid`].
+fn n_free(energies: &[Energy]) -> usize {
+    let [lambda, noise] =
+        [|of: &Energy| of.energy, |of: &Energy| of.noise].map(|of| energies.iter().map(of).collect::<Vec<f64>>());
+    let noise = zero::of_alike(&lambda, &noise);
+    lambda.iter().zip(noise).filter(|(energy, noise)| **energy <= FREE_BELOW_NOISE * noise).count()
+}
+
+/// What a motion costs.
+struct Energy {
+    energy: f64,
+    /// What rounding of the data can make of it.
+    noise: f64,
+}
+
+/// What some directions cost, combined so that none shares energy with another.
+fn energies(motions: &Motions<'_>, directions: &Mat<f64>, energy: &Mat<f64>, terms: &Mat<f64>) -> Result<Vec<Energy>> {
     let within = dense::gram(directions.as_ref(), dense::product(energy.as_ref(), directions.as_ref()).as_ref());
-    let (energies, _) = dense::symmetric_eigen(within.as_ref())?;
+    let (energies, own) = dense::symmetric_eigen(within.as_ref())?;
+    let directions = dense::product(directions.as_ref(), own.as_ref());
     let terms_of = |k: usize| -> f64 {
         let weight = |i: usize| directions[(i, k)].abs();
         (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| weight(i) * terms[(i, j)] * weight(j)).sum()
     };
-    let largest = (0..directions.ncols()).map(terms_of).fold(0.0, f64::max);
-    Ok((energies, motions.rounding() * largest))
+    let of = |(k, energy)| Energy { energy, noise: motions.rounding() * terms_of(k) };
+    Ok(energies.into_iter().enumerate().map(of).collect())
 }

@@ -8,6 +8,7 @@ use super::median_ratio;
 use super::operator::Factored;
 use super::problem::Wanted;
 use super::{ModalProblem, ModeError, ModeRequest, Modes, elastic_modes, zero};
+use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, boundary_of, few_digits, whole_count};
 use crate::job::Eigensolver;
@@ -42,10 +43,6 @@ const MAX_RETREATS: usize = 3;
 const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 /// Modes looked at first; doubled while all of them are zero modes.
 const LOOK_AT: usize = 12;
-/// Eigenvalues up to this multiple of one that is rounding are rounding of the same size, and what their modes are is left to
-/// it: each may carry as much as any other.
-const ALIKE: f64 = 10.0;
-
 /// Factors K − σM of a modal problem with a shift suited to it.
 ///
 /// # Errors
@@ -73,8 +70,7 @@ pub fn shifted<'a>(
             }
         };
         let request = ModeRequest { wanted: Wanted::Count(count), eigensolver: Eigensolver::Lanczos, seed: SEED };
-        let lowest = elastic_modes(problem, &Factored::new(&factor, sigma), request)?;
-        let n_zero = n_zero(&lowest);
+        let (lowest, n_zero) = zero_first(elastic_modes(problem, &Factored::new(&factor, sigma), request)?);
         let all_zero = n_zero == lowest.count() && lowest.next.is_some();
         let first_elastic = lowest.lambda.get(n_zero).copied().or_else(|| elastic_beyond(&lowest));
         if all_zero && count < problem.mass.rows() {
@@ -83,14 +79,13 @@ pub fn shifted<'a>(
             sigma = first_elastic.map_or(sigma, |lambda| -lambda);
             continue;
         }
-        let settled = n_retreats > 0 || first_elastic.is_none_or(|lambda| WINDOW.contains(&(-sigma / lambda)));
+        let suited = first_elastic.map(|lambda| lambda.max(least_shift(&lowest, n_zero)));
+        let settled = n_retreats > 0 || suited.is_none_or(|suited| WINDOW.contains(&(-sigma / suited)));
         if settled || round == MAX_ROUNDS {
             refuse_negative(analysis, problem, (&lowest, first_elastic))?;
             return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round + n_retreats + n_wider });
         }
-        if let Some(lambda) = first_elastic.filter(|lambda| *lambda > 0.0) {
-            sigma = -lambda;
-        }
+        sigma = suited.map_or(sigma, |suited| -suited);
         round += 1;
     }
 }
@@ -101,18 +96,33 @@ pub(crate) fn first_shift(problem: ModalProblem<'_>) -> f64 {
     -FIRST_SHIFT.max(ROUNDINGS_OF_DATA * rounding.relative) * median_ratio(problem)
 }
 
-/// Leading modes that are zero: by themselves, or as rounding of modes they mix with. Negative ones are no elastic ones;
-/// [`refuse_negative`] judges them.
-fn n_zero(lowest: &Modes) -> usize {
-    let pairs = || lowest.lambda.iter().zip(&lowest.errors);
-    let is_zero = |(lambda, error): &(&f64, &ModeError)| {
-        let alike = pairs().filter(|(other, _)| other.abs() <= ALIKE * lambda.abs());
-        let floor = alike.fold(error.rounding_floor, |floor, (_, error)| floor.max(error.rounding_floor));
-        **lambda <= 0.0
-            || zero::is_zero(**lambda, error.zero_level)
-            || zero::is_zero(**lambda, zero::level(0.0, 0.0, floor))
+/// The modes with those first that are zero, by themselves or as rounding of modes they mix with, and how many these are. Negative ones are
+/// no elastic ones; [`refuse_negative`] judges them. Next to a heavy mass, springs that hold it are slower than what rounding leaves of a
+/// rotation about it, so that an elastic mode may lie below a zero one.
+fn zero_first(lowest: Modes) -> (Modes, usize) {
+    let floors: Vec<f64> = lowest.errors.iter().map(|error| error.rounding_floor).collect();
+    let floors = zero::of_alike(&lowest.lambda, &floors);
+    let is_zero = |j: usize| {
+        let lambda = lowest.lambda[j];
+        lambda <= 0.0
+            || zero::is_zero(lambda, lowest.errors[j].zero_level)
+            || zero::is_zero(lambda, zero::level(0.0, 0.0, floors[j]))
     };
-    pairs().take_while(is_zero).count()
+    let (zero, others): (Vec<usize>, Vec<usize>) = (0..lowest.count()).partition(|j| is_zero(*j));
+    let n_zero = zero.len();
+    let order: Vec<usize> = zero.into_iter().chain(others).collect();
+    let sorted = Modes {
+        lambda: order.iter().map(|j| lowest.lambda[*j]).collect(),
+        errors: order.iter().map(|j| lowest.errors[*j]).collect(),
+        shapes: dense::columns(lowest.shapes.as_ref(), &order),
+        ..lowest
+    };
+    (sorted, n_zero)
+}
+
+/// The least −σ with which rounding of the zero modes leaves K − σM definite.
+fn least_shift(lowest: &Modes, n_zero: usize) -> f64 {
+    ROUNDINGS_OF_DATA * lowest.errors[..n_zero].iter().map(|error| error.zero_level).fold(0.0, f64::max)
 }
 
 /// The eigenvalue after modes that are all zero, where it is elastic and not one more zero.
@@ -211,5 +221,20 @@ mod tests {
         stiffnesses[0] = -1e-9;
         let mass = diagonal_matrix(&[1.0; 30]);
         with_lowest(&diagonal_matrix(&stiffnesses), &mass, |found| assert_eq!(found.expect("a shift").n_zero, 1));
+    }
+
+    /// Two masses on a spring of 10⁸ that is off by a rounding, and a heavy one on a soft spring of its own.
+    #[test]
+    fn an_elastic_mode_may_lie_below_a_zero_one() {
+        let stiff = 1e8;
+        let values = vec![stiff + 3e-8, -stiff, -stiff, stiff, 1.0];
+        let stiffness = SparseMatrix::new((3, 3), vec![0, 2, 4, 5], vec![0, 1, 0, 1, 2], values);
+        with_lowest(&stiffness, &diagonal_matrix(&[1.0, 1.0, 1e9]), |found| {
+            let found = found.expect("a shift");
+            assert_eq!(found.n_zero, 1);
+            // Half of what the one entry is off by, which has one unit of rounding, 1.5e-8, at least.
+            assert!(found.lowest.lambda[0] > 5e-9, "{:?}", found.lowest.lambda);
+            assert!((found.lowest.lambda[1] / 1e-9 - 1.0).abs() < 1e-12, "{:?}", found.lowest.lambda);
+        });
     }
 }

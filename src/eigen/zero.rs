@@ -25,9 +25,23 @@ const ROUNDINGS_OF_THE_PRODUCER: f64 = 10.0;
 /// stay below a ten-thousandth of the first elastic one, and what is below zero by no more is rounding of the program that wrote K.
 const NEGLIGIBLE: f64 = 1e-8;
 
+/// Eigenvalues up to this multiple of one that is rounding are rounding of the same size, and what their modes are is left to
+/// it: each may carry as much as any other.
+const ALIKE: f64 = 10.0;
+
 /// λ up to which a motion is zero, from N_d, N_a and N_f over its modal mass.
 pub(crate) fn level(digits: f64, arithmetic: f64, floor: f64) -> f64 {
     SHARE_OF_BOUND * digits + ROUNDINGS_OF_THE_PRODUCER * (arithmetic + floor)
+}
+
+/// Of each of some motions the largest of what rounding leaves of those with eigenvalues up to [`ALIKE`] times its own.
+pub(crate) fn of_alike(lambda: &[f64], rounding: &[f64]) -> Vec<f64> {
+    let pairs = || lambda.iter().zip(rounding);
+    let largest = |(lambda, own): (&f64, &f64)| {
+        let alike = pairs().filter(|(other, _)| other.abs() <= ALIKE * lambda.abs());
+        alike.fold(*own, |max, (_, rounding)| max.max(*rounding))
+    };
+    pairs().map(largest).collect()
 }
 
 /// Whether a Rayleigh quotient is zero at a level; a motion without energy and mass, 0/0, is.

@@ -8,8 +8,8 @@ use crate::eigen::{Equilibrated, zero};
 use crate::partition::Partition;
 use crate::sparse::{SparseMatrix, energies_of_terms, product_and_terms};
 
-/// Energy xᵀKx up to which one of some motions is zero, by the criterion of [`crate::eigen::zero`]; `terms` are |K||x|.
-pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
+/// Energies xᵀKx up to which motions are zero, by the criterion of [`crate::eigen::zero`]; `terms` are |K||x|.
+pub(crate) fn zero_energies(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Vec<f64> {
     let norms = Equilibrated::of(partition.pencil());
     let (digits, sizes) = (partition.energy_noise(x), energies_of_terms(x, terms));
     let patches = partition.patch_terms(x);
@@ -17,7 +17,12 @@ pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatR
         let floor = norms.stiffness_norm * norms.scaled_norm(dense::column(x, j)).powi(2);
         zero::level(digits[j], f64::EPSILON * (sizes[j] + patches[j]), f64::EPSILON * floor)
     };
-    (0..x.ncols()).map(level).fold(0.0, f64::max)
+    (0..x.ncols()).map(level).collect()
+}
+
+/// The largest of them.
+pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
+    zero_energies(partition, x, terms).into_iter().fold(0.0, f64::max)
 }
 
 /// What few digits of K, or roundings of it that rigid patches hide, can make of the energy of a rigid-body motion of unit modal mass.

@@ -3,15 +3,16 @@
 use faer::{Mat, MatRef};
 
 use super::algebraic;
-use super::energy::{largest_residual, zero_energy};
+use super::energy::{largest_residual, zero_energies};
 use super::preload;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::zero;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, whole_count};
 use crate::model::{Bodies, Frame, Site};
 use crate::partition::Partition;
-use crate::sparse::{absolute_energy, energies_of_terms, product, product_and_terms};
+use crate::sparse::{SparseMatrix, absolute_energy, energies_of_terms, product, product_and_terms};
 
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
@@ -78,7 +79,7 @@ fn coupled_by_mass(partition: &Partition, bodies: &Bodies, found: &[Body]) -> Re
         group => {
             let n = partition.n_dofs();
             let massive = dense::concatenated(n, group.iter().map(|body| body.orthonormal.as_ref()));
-            let (massive, without) = mass_orthonormal(partition, massive.as_ref(), MASS_OF_ROUNDING)?;
+            let (massive, without) = mass_orthonormal(&partition.mass, massive.as_ref(), MASS_OF_ROUNDING)?;
             let massless = group.iter().map(|body| body.massless.as_ref());
             let massless = dense::concatenated(n, std::iter::once(without.as_ref()).chain(massless));
             Ok((massive, massless))
@@ -141,41 +142,66 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
     if partition.fit.is_preloaded() {
         motions = preload::without_force(partition, motions, &frame)?;
     }
-    let (orthonormal, massless) = mass_orthonormal(partition, motions.as_ref(), 0.0)?;
-    let massless = without_energy(partition, massless)?;
-    let Energies { energies, directions, noise, zero } = Energies::of(partition, orthonormal.as_ref())?;
-    if let Some(energy) = energies.first().filter(|energy| **energy < -zero) {
-        refuse_negative(partition, *energy, noise)?;
-    }
-    let mut n_free = energies.iter().filter(|energy| **energy <= zero).count();
-    if n_free < energies.len() && is_free_to_k(partition, &energies, noise)? {
-        n_free = energies.len();
-    }
-    let orthonormal = dense::product(orthonormal.as_ref(), directions.as_ref().subcols(0, n_free));
-    let energy = RigidEnergy {
-        largest_quotient: energies[..n_free].iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
-        largest_residual: largest_residual(&partition.stiffness, orthonormal.as_ref()),
-        noise,
-        angle: 0.0,
-    };
+    let free = free_motions(partition, motions)?;
+    let (orthonormal, massless) = mass_orthonormal(&partition.mass, free.as_ref(), 0.0)?;
+    let energy = energy_of(partition, orthonormal.as_ref());
     // Were all six of a preloaded component free, the preload would show in rotations of its parts alone.
-    let is_classical = n_free + massless.ncols() == 6 && !partition.fit.is_preloaded();
+    let is_classical = free.ncols() == 6 && !partition.fit.is_preloaded();
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
+}
+
+/// The motions that cost no energy. Each is held to its own rounding: next to a heavy mass rotations about it, of unit modal mass, are so much
+/// larger than its translations that their rounding would hide what holds those.
+fn free_motions(partition: &Partition, motions: Mat<f64>) -> Result<Mat<f64>> {
+    if motions.ncols() == 0 {
+        return Ok(motions);
+    }
+    let (massive, massless) = mass_orthonormal(&partition.mass, motions.as_ref(), 0.0)?;
+    let found = [Energies::of(partition, massive.as_ref())?, Energies::of(partition, massless.as_ref())?];
+    found.iter().try_for_each(|energies| energies.refuse_negative(partition))?;
+    let n_free: usize = found.iter().map(|energies| energies.n_within(&energies.zero)).sum();
+    // The exact zeros of translations stay exact.
+    if n_free == motions.ncols() || is_free_to_k(partition, &found)? {
+        return Ok(motions);
+    }
+    Ok(dense::side_by_side(found[0].free().as_ref(), found[1].free().as_ref()))
 }
 
 /// Whether motions that cost more than the digits of K explain are zero modes of K all the same: coordinates have digits too, and in a
 /// slender part those of coordinates cost more. The coordinates have been compared with K by the worst that its digits can do.
-fn is_free_to_k(partition: &Partition, energies: &[f64], noise: f64) -> Result<bool> {
-    let is_near = energies.iter().all(|energy| *energy <= NOISE_FACTOR * noise);
-    if !is_near || partition.model.n_bodies > 1 {
+fn is_free_to_k(partition: &Partition, found: &[Energies]) -> Result<bool> {
+    let all: usize = found.iter().map(|energies| energies.motions.ncols()).sum();
+    let near = |energies: &Energies| {
+        let near: Vec<f64> = energies.noise.iter().map(|noise| NOISE_FACTOR * noise).collect();
+        energies.n_within(&near)
+    };
+    if found.iter().map(near).sum::<usize>() < all || partition.model.n_bodies > 1 {
         return Ok(false);
     }
     match algebraic::zero_modes(partition) {
-        Ok(zero) => Ok(zero.rigid.count() >= energies.len()),
+        Ok(zero) => Ok(zero.rigid.count() >= all),
         // Whether K is definite is for others to say.
         Err(Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. } | Error::DigitsTooFew { .. }) => Ok(false),
         Err(error) => Err(error),
     }
+}
+
+/// What orthonormal motions cost.
+fn energy_of(partition: &Partition, orthonormal: MatRef<'_, f64>) -> RigidEnergy {
+    let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal);
+    let energies = dense::dots(orthonormal, forces.as_ref());
+    let sizes = energies_of_terms(orthonormal, terms.as_ref());
+    RigidEnergy {
+        largest_quotient: energies.into_iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
+        largest_residual: largest_residual(&partition.stiffness, orthonormal),
+        noise: noise_share(partition) * sizes.into_iter().fold(0.0, f64::max),
+        angle: 0.0,
+    }
+}
+
+/// What rounding of the data can make of an energy, relative to its terms.
+fn noise_share(partition: &Partition) -> f64 {
+    partition.precision.stiffness.share + f64::EPSILON
 }
 
 /// The spectrum tells whether K is indefinite, or rounded by the program that wrote it.
@@ -189,16 +215,6 @@ fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()>
         }
         found => found.map(drop),
     }
-}
-
-/// The motions without mass that cost no energy either; one that is held is not a rigid-body mode.
-fn without_energy(partition: &Partition, massless: Mat<f64>) -> Result<Mat<f64>> {
-    if massless.ncols() == 0 {
-        return Ok(massless);
-    }
-    let Energies { energies, directions, zero, .. } = Energies::of(partition, massless.as_ref())?;
-    let n_free = energies.iter().filter(|energy| **energy <= zero).count();
-    Ok(dense::product(massless.as_ref(), directions.as_ref().subcols(0, n_free)))
 }
 
 /// Combinations of the six unit motions that move at least one dof, 6 × (≤ 6), scaled to unit displacement.
@@ -218,14 +234,14 @@ fn padded(matrix: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(6, matrix.ncols(), |i, j| if i < matrix.nrows() { matrix[(i, j)] } else { 0.0 })
 }
 
-/// The space of `motions` as Q with QᵀMQ = I, and the motions without mass; `rounding` is the share of its terms up to which a mass is
-/// none.
-fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>, rounding: f64) -> Result<(Mat<f64>, Mat<f64>)> {
+/// The space of `motions` as Q with QᵀMQ = I in a mass, and the motions without mass; `rounding` is the share of its terms up to which a
+/// mass is none.
+fn mass_orthonormal(mass: &SparseMatrix, motions: MatRef<'_, f64>, rounding: f64) -> Result<(Mat<f64>, Mat<f64>)> {
     if motions.ncols() == 0 {
         return Ok((motions.to_owned(), motions.to_owned()));
     }
     let modal_mass = |q: MatRef<'_, f64>| {
-        let mut modal_mass = dense::gram(q, product(&partition.mass, q).as_ref());
+        let mut modal_mass = dense::gram(q, product(mass, q).as_ref());
         dense::symmetrise(&mut modal_mass);
         modal_mass
     };
@@ -238,7 +254,7 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>, rounding: f
     if largest.is_nan() || largest <= 0.0 {
         return Err(Error::MasslessRigidMotion { relative_mass: 0.0 });
     }
-    let terms = absolute_energy(&partition.mass, q.as_ref());
+    let terms = absolute_energy(mass, q.as_ref());
     let has_mass = |j: &usize| masses[*j] > (NO_MASS * largest).max(rounding * terms[*j]);
     let (massive, massless): (Vec<usize>, Vec<usize>) = (0..q.ncols()).partition(has_mass);
     let of = |kept: &[usize], factor: &dyn Fn(usize) -> f64| {
@@ -258,26 +274,50 @@ fn mass_orthonormal(partition: &Partition, motions: MatRef<'_, f64>, rounding: f
     Ok((q, massless))
 }
 
-/// What some motions cost.
+/// What some motions cost, each by itself.
 struct Energies {
-    /// qᵀKq in ascending order of size.
+    /// The motions, combined so that none shares energy with another.
+    motions: Mat<f64>,
+    /// xᵀKx of each, ascending.
     energies: Vec<f64>,
-    /// The combinations that have them.
-    directions: Mat<f64>,
-    /// What rounding of the data can make of one, all roundings with one sign.
-    noise: f64,
-    /// Up to which one is zero.
-    zero: f64,
+    /// What rounding of the data can make of it, all roundings with one sign.
+    noise: Vec<f64>,
+    /// Up to which it is zero.
+    zero: Vec<f64>,
 }
 
 impl Energies {
-    fn of(partition: &Partition, q: MatRef<'_, f64>) -> Result<Self> {
-        let (forces, terms) = product_and_terms(&partition.stiffness, q);
-        let mut energy = dense::gram(q, forces.as_ref());
+    fn of(partition: &Partition, x: MatRef<'_, f64>) -> Result<Self> {
+        let mut energy = dense::gram(x, product(&partition.stiffness, x).as_ref());
         dense::symmetrise(&mut energy);
-        let (energies, directions) = dense::symmetric_eigen(energy.as_ref())?;
-        let largest = energies_of_terms(q, terms.as_ref()).into_iter().fold(0.0, f64::max);
-        let zero = zero_energy(partition, q, terms.as_ref());
-        Ok(Self { energies, directions, noise: (partition.precision.stiffness.share + f64::EPSILON) * largest, zero })
+        let (_, directions) = dense::symmetric_eigen(energy.as_ref())?;
+        let motions = dense::product(x, directions.as_ref());
+        let (forces, terms) = product_and_terms(&partition.stiffness, motions.as_ref());
+        let sizes = energies_of_terms(motions.as_ref(), terms.as_ref());
+        let energies = dense::dots(motions.as_ref(), forces.as_ref());
+        let zero = zero::of_alike(&energies, &zero_energies(partition, motions.as_ref(), terms.as_ref()));
+        let noise = sizes.iter().map(|size| noise_share(partition) * size).collect();
+        Ok(Self { motions, energies, noise, zero })
+    }
+
+    /// How many of them cost no more than `levels`.
+    fn n_within(&self, levels: &[f64]) -> usize {
+        self.energies.iter().zip(levels).filter(|(energy, level)| energy <= level).count()
+    }
+
+    fn free(&self) -> Mat<f64> {
+        let free: Vec<usize> = (0..self.energies.len()).filter(|j| self.energies[*j] <= self.zero[*j]).collect();
+        Mat::from_fn(self.motions.nrows(), free.len(), |i, j| self.motions[(i, free[j])])
+    }
+
+    /// An error where one has negative energy.
+    fn refuse_negative(&self, partition: &Partition) -> Result<()> {
+        let Some(j) = (0..self.energies.len()).find(|j| self.energies[*j] < -self.zero[*j]) else { return Ok(()) };
+        let motion = self.motions.as_ref().subcols(j, 1);
+        let mass = dense::gram(motion, product(&partition.mass, motion).as_ref())[(0, 0)];
+        match mass > 0.0 {
+            true => refuse_negative(partition, self.energies[j] / mass, self.noise[j] / mass),
+            false => Ok(()),
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel_models::transform::{carrying, rounded};
+use supel_models::{Material, brick};
 use supel_testing::place::{Place, supel};
 
 use crate::{beams, line};
@@ -73,4 +75,36 @@ fn text_fits_the_page_and_says_what_the_figures_are() {
     assert!(guyan.lines().all(|line| line.chars().count() <= 100), "{guyan}");
     let apart = supel(&["modes", &place.text("left.supel"), &place.text("right.supel")]).expect(ExitCode::Done);
     assert!(apart.out.contains("left is joined to nothing"), "{}", apart.out);
+}
+
+/// Next to a heavy mass elastic modes move what is by it in the opposite direction by much less than as a rigid body: what is not known of
+/// energies by few digits is of what they move.
+#[test]
+fn few_digits_leave_elastic_modes_beside_a_heavy_mass_their_energy() {
+    let beam = brick([3, 2, 2], [3.0, 0.05, 0.05], &Material::UNIT);
+    let at = |x: f64| {
+        let nodes = beam.labels.iter().zip(&beam.nodes).filter(|(_, place)| place[0] == x);
+        nodes.map(|(label, _)| label.to_string()).collect::<Vec<String>>().join(",")
+    };
+    let inside = beam.labels.iter().zip(&beam.nodes).find(|(_, place)| place[0] == 1.0).expect("a node");
+    let found = |mass: f64, digits: usize| {
+        let place = Place::with(&rounded(&carrying(&beam, &[*inside.0], mass), digits));
+        let ends = format!("--rigid-interface a={} --rigid-interface b={}", at(0.0), at(3.0));
+        place.reduce(&place.model_flags(), &format!("{ends} --method craig-bampton --modes 6")).expect(ExitCode::Done);
+        let ended = supel(&["modes", &place.text("x.supel"), "--count", "12", "--json"]).expect(ExitCode::Done);
+        let document: Value = serde_json::from_str(&ended.out).expect("JSON");
+        let modes = document["modes"].as_array().expect("a list")[6..].to_vec();
+        modes
+            .into_iter()
+            .map(|mode| (mode["kind"].clone(), mode["frequency_hz"].as_f64().expect("Hz")))
+            .collect::<Vec<_>>()
+    };
+    // The beam weighs 0.0075.
+    for (mass, digits) in [(7.5, 9), (75.0, 9), (75_000.0, 12)] {
+        for ((kind, hertz), (_, expected)) in found(mass, digits).into_iter().zip(found(mass, 17)) {
+            assert_eq!(kind, "elastic", "{mass}, {digits} digits");
+            // Nine digits of a beam of 1:60 leave five of its first frequency.
+            assert!((hertz / expected - 1.0).abs() < 1e-4, "{mass}, {digits} digits: {hertz} for {expected}");
+        }
+    }
 }

@@ -1,8 +1,11 @@
 //! Mass matrices: lines MS-01 to MS-08.
 
+use faer::Mat;
+use supel::dense;
 use supel::error::Error;
+use supel::job::{Coupling, InterfaceJob};
 use supel_models::model::Entry;
-use supel_models::transform::{join, scaled, supported};
+use supel_models::transform::{carrying, grounded, join, rounded, scaled, supported};
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
 
 use crate::chain::{Method, Twin, direct, reduce, rows};
@@ -245,5 +248,90 @@ fn ms_07_ms_08_masses_of_the_job_at_the_interface() {
                 );
             }
         }
+    }
+}
+
+/// λ of the six motions of a model as a rigid body.
+fn of_rigid_body(model: &Model) -> Vec<f64> {
+    let motion = |row: usize, j: usize| {
+        let (label, direction) = (model.dofs[row].0, usize::from(model.dofs[row].1));
+        let x = model.nodes[model.labels.iter().position(|own| *own == label).expect("a node")];
+        let (from, to) = ((j + 1) % 3, (j + 2) % 3);
+        match j {
+            0..=2 => f64::from(u8::from(j == direction)),
+            // e_j × x.
+            _ if direction == from => -x[to],
+            _ if direction == to => x[from],
+            _ => 0.0,
+        }
+    };
+    let form = |entries: &[Entry]| {
+        let mut sum = Mat::<f64>::zeros(6, 6);
+        for &(row, col, value) in entries {
+            for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
+                sum[(i, j)] += motion(row as usize, i) * value * motion(col as usize, j);
+            }
+        }
+        Mat::from_fn(6, 6, |i, j| 0.5 * (sum[(i, j)] + sum[(j, i)]))
+    };
+    let (masses, axes) = dense::symmetric_eigen(form(&model.mass).as_ref()).expect("six masses");
+    let unit = Mat::from_fn(6, 6, |i, j| axes[(i, j)] / masses[j].sqrt());
+    let energies =
+        dense::product(unit.transpose(), dense::product(form(&model.stiffness).as_ref(), unit.as_ref()).as_ref());
+    dense::symmetric_eigen(energies.as_ref()).expect("six eigenvalues").0
+}
+
+/// Three springs to the ground, so soft that next to a heavy mass rounding of rotations about it, of unit modal mass, is more than what they
+/// make of its translations. They hold the body all the same: its lowest six modes are those of a rigid body on them.
+#[test]
+fn soft_springs_hold_a_part_with_a_heavy_mass() {
+    let block = brick([4, 4, 1], [1.0, 1.0, 0.4], &Material::UNIT);
+    let at = |x: f64| {
+        let nodes = block.labels.iter().zip(&block.nodes);
+        nodes.filter(|(_, place)| place[0] == x).map(|(label, _)| *label).collect::<Vec<i64>>()
+    };
+    let ends = [("left", 0.0), ("right", 1.0)];
+    let ends = ends.map(|(name, x)| InterfaceJob { coupling: Coupling::Rigid, ..direct(name, &at(x)) });
+    let inside: Vec<i64> =
+        block.labels.iter().copied().filter(|label| !at(0.0).contains(label) && !at(1.0).contains(label)).collect();
+    let held = [inside[0], inside[inside.len() / 2], inside[inside.len() - 1]];
+    for (digits, softness, mass) in [(17, 1e-8, 1e4), (17, 1e-6, 1e7), (12, 1e-6, 1e4), (9, 1e-4, 1e7), (9, 1e-4, 1e3)]
+    {
+        let is_held = |row: &usize| held.contains(&block.dofs[*row].0);
+        // E and L are one: a spring between neighbours has about the length of an element for stiffness.
+        let model =
+            (0..block.n).filter(is_held).fold(block.clone(), |model, row| grounded(&model, row, 0.25 * softness));
+        let model = rounded(&carrying(&model, &[inside[1]], mass), digits as usize);
+        let expected = of_rigid_body(&model);
+        for method in ["herting", "craig-bampton"] {
+            let found = Case::new(&model, &ends).method(method).accepted();
+            assert_eq!(n_rigid(&found), 0, "{method}, {digits} digits, springs of {softness:e}, mass of {mass:e}");
+        }
+        let found = eigenvalues(&Case::new(&model, &ends).accepted());
+        // An element gives way to a spring by about the ratio of the two, and moving the body as a whole adds up some hundred entries for
+        // each spring, 1/softness times as large and each off by its rounding.
+        let rounding = 0.1f64.powi(digits).max(f64::EPSILON);
+        let tolerance = 10.0 * softness + 100.0 * rounding / softness;
+        assert!(worst_ratio(&found[..6], &expected) <= tolerance, "{digits}: {found:?} for {expected:?}");
+    }
+}
+
+/// All of S is within its rounding then, which is no reason to look for mechanisms among rigid-body motions.
+#[test]
+fn few_digits_and_a_heavy_mass_make_no_massless_mechanism() {
+    let beam = brick([3, 2, 2], [3.0, 0.05, 0.05], &Material::UNIT);
+    let at = |x: f64| {
+        let nodes = beam.labels.iter().zip(&beam.nodes);
+        nodes.filter(|(_, place)| place[0] == x).map(|(label, _)| *label).collect::<Vec<i64>>()
+    };
+    let ends = [("left", 0.0), ("right", 3.0)];
+    let ends = ends.map(|(name, x)| InterfaceJob { coupling: Coupling::Rigid, ..direct(name, &at(x)) });
+    // 10³ and 10⁴ of what the beam weighs.
+    for (mass, digits) in [(7.5, 7), (75.0, 7), (75_000.0, 9)] {
+        let model = rounded(&carrying(&beam, &at(1.0)[..1], mass), digits);
+        // Whether the digits suffice for frequencies is for the checks to say.
+        let found =
+            Case::new(&model, &ends).method("craig-bampton").run().unwrap_or_else(|error| panic!("refused: {error}"));
+        assert_eq!(n_rigid(&found), 6, "{mass}, {digits} digits");
     }
 }

@@ -3,7 +3,7 @@
 use supel::cli::ExitCode;
 use supel_models::model::Assembler;
 use supel_models::springs::springs;
-use supel_models::transform::{grounded, join, translated};
+use supel_models::transform::{carrying, grounded, join, rounded, translated};
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
 
 use crate::place::{Place, supel};
@@ -104,14 +104,18 @@ fn modes_that_are_nearly_one_are_verified_with_the_job() {
     }
 }
 
+/// Two blocks with one edge in common; the free end of the second one has the nodes 15, 18 and 21.
+pub(crate) fn hinged_blocks() -> Model {
+    let block = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
+    join(&block, &translated(&block, [2.0, 1.0, 0.0]), &[(6, 1), (12, 7)])
+}
+
 /// Mechanisms are zero modes behind the six motions of the body, whose mass the file states all the same.
 #[test]
 fn two_bodies_with_a_hinge_or_a_ball_joint() {
-    let beam = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
-    let hinged = join(&beam, &translated(&beam, [2.0, 1.0, 0.0]), &[(6, 1), (12, 7)]);
     let block = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
     let ball_jointed = join(&block, &translated(&block, [2.0, 1.0, 1.0]), &[(12, 1)]);
-    for (model, there) in [(hinged, "15,18,21"), (ball_jointed, "17,20,23")] {
+    for (model, there) in [(hinged_blocks(), "15,18,21"), (ball_jointed, "17,20,23")] {
         let place = Place::with(&model);
         for method in ["herting", "craig-bampton"] {
             let rest = format!("--interface here=1,2,4,7 --interface there={there} --method {method} --modes 4");
@@ -136,6 +140,45 @@ fn mechanisms_that_are_meant(place: &Place) {
         let made = place.superelement("x.supel");
         let assumptions = &made.metadata().validity.assumptions;
         assert_eq!(assumptions.iter().any(|assumption| assumption.contains("without strain")), !is_warned_of);
+    }
+}
+
+/// A body that one rigid patch carries has no stiffness there but rounding, which is no size for its forces: next to another body, with few
+/// digits and without a mass.
+#[test]
+fn statics_of_a_carried_body_next_to_another_one() {
+    let block = brick([2, 1, 1], [2.0, 1.0, 1.0], &Material::UNIT);
+    let two = join(&block, &translated(&block, [5.0, 0.0, 0.0]), &[]);
+    for digits in [7, 9, 12, 17] {
+        let place = Place::with(&rounded(&two, digits));
+        let job = "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"nodes.csv\"\ndofs = \"dofs.txt\"\n\
+                   [[interface]]\nname = \"a\"\nnodes = [1, 4, 7, 10]\ncoupling = \"rigid\"\n\
+                   [[interface]]\nname = \"b\"\nnodes = [15, 18, 21, 24]\n\
+                   [reduction]\nmethod = \"guyan\"\n[scene]\nanalysis = \"static\"\ngravity = false\n\
+                   [write]\nsuperelement = \"x.supel\"\n";
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+        for flags in [&[][..], &["--job", &place.text("job.toml")]] {
+            let ended = supel(&[&["verify", &place.text("x.supel")], flags].concat());
+            assert_eq!(ended.code, ExitCode::Done, "{digits} digits, {flags:?}:\n{}{}", ended.out, ended.err);
+        }
+    }
+}
+
+/// What is left of the free motions of a heavy mass is rounding, and no measure of a shift.
+#[test]
+fn a_heavy_mass_with_part_of_the_interface_held() {
+    let block = brick([4, 4, 2], [1.0, 1.0, 1.0], &Material::UNIT);
+    for mass in [1e4, 1e6] {
+        let place = Place::with(&carrying(&block, &[27], mass));
+        let job = "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"nodes.csv\"\ndofs = \"dofs.txt\"\n\
+                   [[interface]]\nname = \"a\"\nnodes = [21, 51, 31]\n\
+                   [reduction]\nmethod = \"mixed-interface\"\nmodes = { count = 6 }\nheld = [\"a.ux\"]\n\
+                   [write]\nsuperelement = \"x.supel\"\n";
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+        let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
+        assert_eq!(ended.code, ExitCode::Done, "{mass}:\n{}{}", ended.out, ended.err);
     }
 }
 

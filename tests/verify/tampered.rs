@@ -4,6 +4,7 @@ use serde_json::Value;
 use supel::cli::ExitCode;
 use supel_runtime::{Matrix, Metadata, Superelement, Tensors};
 
+use crate::healthy::hinged_blocks;
 use crate::place::{Place, supel};
 
 type Alteration<'a> = &'a dyn Fn(&mut Tensors, &mut Metadata);
@@ -201,6 +202,25 @@ fn gravity() {
         fails(&place, "M-18 loads of gravity are those of M̂", &|tensors, _| {
             tensors.gravity = tensors.gravity.as_ref().map(|gravity| changed_at(gravity, at, 1e-4 * size));
         });
+    }
+}
+
+/// What mechanisms add to the zero modes takes nothing from what gravity is.
+#[test]
+fn gravity_of_a_hinged_part() {
+    let place = Place::with(&hinged_blocks());
+    for method in ["herting", "craig-bampton"] {
+        let rest = format!("--interface here=1,2,4,7 --interface there=15,18,21 --method {method} --modes 4");
+        place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+        let made = place.superelement("x.supel");
+        let gravity = made.tensors().gravity.as_ref().expect("gravity");
+        let modal = (made.n_interface()..made.n_coordinates()).flat_map(|i| (0..3).map(move |j| (i, j)));
+        let largest = modal.max_by(|a, b| gravity[*a].abs().total_cmp(&gravity[*b].abs())).expect("modes");
+        for by in [0.02, -2.0] {
+            fails(&place, "M-18 loads of gravity are those of M̂", &|tensors, _| {
+                tensors.gravity = Some(changed_at(gravity, largest, by * gravity[largest]));
+            });
+        }
     }
 }
 

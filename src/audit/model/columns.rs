@@ -18,6 +18,7 @@ use crate::constraint::left_inverse;
 use crate::dense;
 use crate::job::Boundary;
 use crate::partition::Partition;
+use crate::plan::Mass;
 use crate::random::SplitMix64;
 use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::{product, product_and_terms};
@@ -73,6 +74,8 @@ pub(super) struct Motions<'a> {
     pub(super) numbers: &'a [usize],
     /// Where those come from: by the coordinates they are exact, and rounding turns zero modes of K.
     pub(super) source: RigidSource,
+    /// Whether the reduction projects the mass; if not, it makes no constraint modes.
+    pub(super) mass: Mass,
 }
 
 /// P: the identity, or as many random mixtures as are solved, of dofs that weigh alike in energy.
@@ -117,7 +120,7 @@ impl Columns {
         let Some(interior) = interior else { return columns };
         let mut follower = Follower { partition, interior, carried: None, gains: Gains::new(partition) };
         let statics = follower.follow(columns.probes.as_ref());
-        follower.carried = Carried::of(&mut follower, motions.carried, statics.x.as_ref());
+        follower.carried = Carried::of(&mut follower, motions, statics.x.as_ref());
         let statics = follower.carrying(statics, columns.probes.as_ref());
         columns.residual = columns.take(0, statics);
         columns.relieve(&mut follower, motions.relieved);
@@ -292,26 +295,26 @@ struct Carried {
 impl Carried {
     /// U_I − Ψ_S U_B is K_II⁻¹(KU)_I: where the digits of K do not let U pass, it is what the correction of (24) adds, and otherwise
     /// rounding. `statics` are Ψ_S P.
-    fn of(follower: &mut Follower<'_>, motions: &RigidBodyModes, statics: MatRef<'_, f64>) -> Option<Self> {
+    fn of(follower: &mut Follower<'_>, motions: Motions<'_>, statics: MatRef<'_, f64>) -> Option<Self> {
         let Follower { partition, interior, .. } = *follower;
         let (n_i, n_b) = (partition.n_internal, partition.n_interface());
-        if motions.count() == 0 || n_b == 0 {
+        if motions.carried.count() == 0 || n_b == 0 {
             return None;
         }
-        let u = motions.orthonormal.as_ref();
+        let u = motions.carried.orthonormal.as_ref();
         let u_b = u.subrows(n_i, n_b);
         let (forces, terms) = product_and_terms(&partition.stiffness, u);
         let defect = interior.solve(forces.as_ref().subrows(0, n_i)).x;
         // The reduction takes Ψ_S U_B from U_I: what its solves lack of that, and rounding of K U here, whose terms are the same.
         let terms = Terms { x: u.subrows(0, n_i), loads: terms.as_ref().subrows(0, n_i) };
         let mut errors = follower.gains.errors(partition, interior, terms);
-        let lift = if statics.ncols() == n_b {
-            left_inverse(partition, statics, u_b)
-        } else {
-            // Mixtures do not tell how far each dof moves the interior: another U_B⁺ puts the correction into other columns.
+        let whole = statics.ncols() == n_b;
+        if !whole || motions.mass == Mass::NotAsked {
+            // By mixtures, and without any column, U_B⁺ has other weights: it puts the correction into other columns.
             errors.add(&Lengths::of(partition, defect.as_ref()));
-            left_inverse(partition, Mat::zeros(n_i, n_b).as_ref(), u_b)
-        };
+        }
+        let nothing = Mat::zeros(n_i, n_b);
+        let lift = left_inverse(partition, if whole { statics } else { nothing.as_ref() }, u_b);
         Some(Self { defect, lift, errors })
     }
 }

@@ -10,7 +10,7 @@
 use faer::{Mat, MatRef};
 
 use crate::dense::{self, NOISE_FACTOR};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factor::{Analysis, Cholesky, SolveOperator};
 use crate::partition::Partition;
 use crate::random::SplitMix64;
@@ -53,8 +53,12 @@ impl<'a> Nearby<'a> {
             return Ok(Self { factor, sigma });
         };
         drop(factor);
-        let sigma = -SHIFT * softest;
-        Ok(Self { factor: Cholesky::new(analysis, pencil, sigma, name)?, sigma })
+        match Cholesky::new(analysis, pencil, -SHIFT * softest, name) {
+            Ok(factor) => Ok(Self { factor, sigma: -SHIFT * softest }),
+            // It was rounding after all.
+            Err(Error::NotDefinite { .. }) => Ok(Self { factor: Cholesky::new(analysis, pencil, sigma, name)?, sigma }),
+            Err(error) => Err(error),
+        }
     }
 }
 

@@ -59,17 +59,16 @@ impl Scaled {
         };
         let coordinates = &superelement.metadata().coordinates[n_b..];
         let mixing = tensors.mixing.as_ref().map(unpacked);
+        let u = &tensors.rigid_body_modes;
+        let u = Mat::from_fn(u.rows(), u.cols(), |i, j| u[(i, j)] * of(i));
         Self {
             m: match has_mass {
                 true => both(unpacked(&tensors.mass), units.mass_unit()),
-                false => unit_mass(&k),
+                false => unit_mass(&k, u.as_ref()),
             },
             k,
             has_mass,
-            u: {
-                let u = &tensors.rigid_body_modes;
-                Mat::from_fn(u.rows(), u.cols(), |i, j| u[(i, j)] * of(i))
-            },
+            u,
             m_f,
             gravity: gravity.map(|g| Mat::from_fn(g.cols(), g.rows(), |i, j| g[(j, i)] / (units.mass_unit() * of(j)))),
             loads: loads_in_units(superelement, partition, &of),
