@@ -142,29 +142,25 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
     if partition.fit.is_preloaded() {
         motions = preload::without_force(partition, motions, &frame)?;
     }
-    let free = free_motions(partition, motions)?;
-    let (orthonormal, massless) = mass_orthonormal(&partition.mass, free.as_ref(), 0.0)?;
+    let (orthonormal, massless) = free_motions(partition, motions.as_ref())?;
     let energy = energy_of(partition, orthonormal.as_ref());
     // Were all six of a preloaded component free, the preload would show in rotations of its parts alone.
-    let is_classical = free.ncols() == 6 && !partition.fit.is_preloaded();
+    let is_classical = orthonormal.ncols() + massless.ncols() == 6 && !partition.fit.is_preloaded();
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
 }
 
-/// The motions that cost no energy. Each is held to its own rounding: next to a heavy mass rotations about it, of unit modal mass, are so much
-/// larger than its translations that their rounding would hide what holds those.
-fn free_motions(partition: &Partition, motions: Mat<f64>) -> Result<Mat<f64>> {
-    if motions.ncols() == 0 {
-        return Ok(motions);
-    }
-    let (massive, massless) = mass_orthonormal(&partition.mass, motions.as_ref(), 0.0)?;
+/// The motions that cost no energy: those with mass, M-orthonormal, and those without. Each is held to its own rounding: next to a heavy mass
+/// rotations about it, of unit modal mass, are so much larger than its translations that their rounding would hide what holds those.
+fn free_motions(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<f64>, Mat<f64>)> {
+    let (massive, massless) = mass_orthonormal(&partition.mass, motions, 0.0)?;
     let found = [Energies::of(partition, massive.as_ref())?, Energies::of(partition, massless.as_ref())?];
-    found.iter().try_for_each(|energies| energies.refuse_negative(partition))?;
+    found[0].refuse_negative(partition)?;
     let n_free: usize = found.iter().map(|energies| energies.n_within(&energies.zero)).sum();
     // The exact zeros of translations stay exact.
     if n_free == motions.ncols() || is_free_to_k(partition, &found)? {
-        return Ok(motions);
+        return Ok((massive, massless));
     }
-    Ok(dense::side_by_side(found[0].free().as_ref(), found[1].free().as_ref()))
+    Ok((found[0].free(), found[1].free()))
 }
 
 /// Whether motions that cost more than the digits of K explain are zero modes of K all the same: coordinates have digits too, and in a
@@ -310,14 +306,9 @@ impl Energies {
         Mat::from_fn(self.motions.nrows(), free.len(), |i, j| self.motions[(i, free[j])])
     }
 
-    /// An error where one has negative energy.
+    /// An error where one of unit modal mass has negative energy.
     fn refuse_negative(&self, partition: &Partition) -> Result<()> {
         let Some(j) = (0..self.energies.len()).find(|j| self.energies[*j] < -self.zero[*j]) else { return Ok(()) };
-        let motion = self.motions.as_ref().subcols(j, 1);
-        let mass = dense::gram(motion, product(&partition.mass, motion).as_ref())[(0, 0)];
-        match mass > 0.0 {
-            true => refuse_negative(partition, self.energies[j] / mass, self.noise[j] / mass),
-            false => Ok(()),
-        }
+        refuse_negative(partition, self.energies[j], self.noise[j])
     }
 }
