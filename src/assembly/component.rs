@@ -108,15 +108,8 @@ pub(super) fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
 
 /// The first eigenvalue of the free component that is more than rounding.
 fn first_elastic((stiffness, mass): (&Mat<f64>, &Mat<f64>), motions: &Mat<f64>) -> Result<Option<f64>> {
-    let noise = NOISE_FACTOR * f64::EPSILON;
-    let pencil = Pencil {
-        stiffness: stiffness.clone(),
-        mass: mass.clone(),
-        rigid: motions.clone(),
-        rounding: dense::absolute(stiffness.as_ref()) * faer::Scale(noise),
-        doubt: Mat::zeros(mass.nrows(), mass.ncols()),
-    };
-    Ok(pencil.spectrum(None)?.and_then(|spectrum| spectrum.first_elastic()))
+    let spectrum = Pencil::of(stiffness.as_ref(), mass.as_ref(), motions.clone()).spectrum(None)?;
+    Ok(spectrum.and_then(|spectrum| spectrum.first_elastic()))
 }
 
 /// The largest energy in any combination of M-orthonormal motions.
@@ -127,8 +120,8 @@ fn largest_energy(stiffness: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> Resul
     Ok(values.into_iter().fold(0.0, |most, value| most.max(value.abs())))
 }
 
-/// α M̂ + β (M̂ − M̂R(M̂R)ᵀ), R rigid-body motions with RᵀM̂R = 1: what rounding of the full matrices makes of an energy, β of an eigenvalue,
-/// is of motion beyond theirs. It has no moduli, which next to a heavy mass are far more than what such motion moves.
+/// ρ M̂ + κ (M̂ − M̂R(M̂R)ᵀ), ρ the rounding, κ what the first eigenvalue is known to, R rigid-body motions with RᵀM̂R = 1: what rounding of the
+/// full matrices makes of an energy is of motion beyond theirs. It has no moduli, which next to a heavy mass are far more than what such motion moves.
 fn doubt(mass: MatRef<'_, f64>, motions: MatRef<'_, f64>, (rounding, known_to): (f64, f64)) -> Mat<f64> {
     let momenta = dense::product(mass, motions);
     let rigid = dense::product(momenta.as_ref(), momenta.transpose());

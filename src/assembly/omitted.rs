@@ -36,7 +36,7 @@ use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Superelement, Verdict};
 
 use super::spectrum::{Pencil, Spectrum};
-use crate::dense::{self, NOISE_FACTOR};
+use crate::dense;
 use crate::error::Result;
 use crate::job::{Boundary, Method, ModeOrigin};
 use crate::rigid::n_passing;
@@ -220,11 +220,7 @@ fn stated_spectrum(
     (k, m): (MatRef<'_, f64>, MatRef<'_, f64>),
     rigid: Mat<f64>,
 ) -> Result<Result<Spectrum, &'static str>> {
-    let noise = NOISE_FACTOR * f64::EPSILON;
-    let rounding = Mat::from_fn(k.nrows(), k.ncols(), |i, j| noise * k[(i, j)].abs());
-    let doubt = Mat::zeros(k.nrows(), k.ncols());
-    let pencil = Pencil { stiffness: k.to_owned(), mass: m.to_owned(), rigid, rounding, doubt };
-    let Some(spectrum) = pencil.spectrum(None)? else { return Ok(Err(OTHER_FREQUENCIES)) };
+    let Some(spectrum) = Pencil::of(k, m, rigid).spectrum(None)? else { return Ok(Err(OTHER_FREQUENCIES)) };
     let stated: Vec<f64> = superelement.tensors().frequencies.iter().map(|omega| omega * omega).collect();
     let is_found = |(j, stated): (usize, &f64)| {
         let found = spectrum.lambda.get(j);

@@ -32,7 +32,7 @@ pub(super) struct Pencil {
     pub(super) rigid: Mat<f64>,
     /// How far each entry of K may be off.
     pub(super) rounding: Mat<f64>,
-    /// What is not known of an energy xᵀKx besides is x times this times x.
+    /// D: what else is not known of an energy xᵀKx is xᵀDx.
     pub(super) doubt: Mat<f64>,
 }
 
@@ -47,6 +47,17 @@ pub(super) struct Spectrum {
 }
 
 impl Pencil {
+    /// A pencil of which nothing but double precision is to be doubted.
+    pub(super) fn of(stiffness: MatRef<'_, f64>, mass: MatRef<'_, f64>, rigid: Mat<f64>) -> Self {
+        Self {
+            stiffness: stiffness.to_owned(),
+            mass: mass.to_owned(),
+            rigid,
+            rounding: dense::absolute(stiffness) * faer::Scale(NOISE_FACTOR * f64::EPSILON),
+            doubt: Mat::zeros(mass.nrows(), mass.ncols()),
+        }
+    }
+
     /// Its elastic eigenpairs with finite eigenvalues; none where a motion has neither stiffness nor mass.
     ///
     /// The first α is `near`, an eigenvalue that is known to be near the first of them, or the lowest ratio of the diagonals.

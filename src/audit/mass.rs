@@ -183,7 +183,8 @@ fn unit_translations(content: &Content<'_>) -> Option<Mat<f64>> {
     Some(content.u.as_ref().subrows(0, content.n_b).qr().solve_lstsq(&unit))
 }
 
-/// The same of a component with mechanisms; none where the interface does not tell all its motions apart or none of them translates it.
+/// A of a component with mechanisms, as [`unit_translations`]; none where the interface does not tell all motions apart or Û lacks one of the
+/// three translations.
 fn translations_with_mechanisms(content: &Content<'_>) -> Option<Mat<f64>> {
     /// Motions that the interface sees by less are not told apart.
     const LEAST_SEEN: f64 = 1e-6;
@@ -219,7 +220,7 @@ pub(super) fn expected(content: &Content<'_>) -> Option<Check> {
     })
 }
 
-/// M-18: gravity accelerates the component as a rigid body, so that its loads are those of the first three unit motions.
+/// M-18: gravity accelerates the component as a rigid body, so that its loads are those of the unit translations.
 pub(super) fn gravity(content: &Content<'_>) -> Option<Check> {
     const FAIL: f64 = 1e-8;
     /// Where Û has no more digits than zero modes of the matrices have.

@@ -21,7 +21,7 @@ pub struct Shifted<'a> {
     pub factor: Cholesky<'a>,
     /// σ < 0.
     pub sigma: f64,
-    /// The lowest modes, zero modes first.
+    /// The lowest modes, zero modes first: λ ascends among these and among the others.
     pub lowest: Modes,
     /// How many of them are zero within the noise of the data.
     pub n_zero: usize,
@@ -43,6 +43,7 @@ const MAX_RETREATS: usize = 3;
 const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 /// Modes looked at first; doubled while all of them are zero modes.
 const LOOK_AT: usize = 12;
+
 /// Factors K − σM of a modal problem with a shift suited to it.
 ///
 /// # Errors

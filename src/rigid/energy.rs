@@ -20,7 +20,7 @@ pub(crate) fn zero_energies(partition: &Partition, x: MatRef<'_, f64>, terms: Ma
     (0..x.ncols()).map(level).collect()
 }
 
-/// The largest of them.
+/// The largest of [`zero_energies`].
 pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> f64 {
     zero_energies(partition, x, terms).into_iter().fold(0.0, f64::max)
 }

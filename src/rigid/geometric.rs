@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::algebraic;
-use super::energy::{largest_residual, zero_energies};
+use super::energy::{residuals, zero_energies};
 use super::preload;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense::{self, NOISE_FACTOR};
@@ -156,8 +156,8 @@ fn free_motions(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<
     let found = [Energies::of(partition, massive.as_ref())?, Energies::of(partition, massless.as_ref())?];
     found[0].refuse_negative(partition)?;
     let n_free: usize = found.iter().map(|energies| energies.n_within(&energies.zero)).sum();
-    // The exact zeros of translations stay exact.
-    if n_free == motions.ncols() || is_free_to_k(partition, &found)? {
+    if n_free < motions.ncols() && is_free_to_k(partition, &found)? {
+        let [massive, massless] = found.map(|energies| energies.motions);
         return Ok((massive, massless));
     }
     Ok((found[0].free(), found[1].free()))
@@ -189,7 +189,7 @@ fn energy_of(partition: &Partition, orthonormal: MatRef<'_, f64>) -> RigidEnergy
     let sizes = energies_of_terms(orthonormal, terms.as_ref());
     RigidEnergy {
         largest_quotient: energies.into_iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
-        largest_residual: largest_residual(&partition.stiffness, orthonormal),
+        largest_residual: residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max),
         noise: noise_share(partition) * sizes.into_iter().fold(0.0, f64::max),
         angle: 0.0,
     }

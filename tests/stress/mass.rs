@@ -281,19 +281,25 @@ fn of_rigid_body(model: &Model) -> Vec<f64> {
     dense::symmetric_eigen(energies.as_ref()).expect("six eigenvalues").0
 }
 
+/// Labels of the nodes with such an x, in their order.
+fn labels_at(model: &Model, is_there: impl Fn(f64) -> bool) -> Vec<i64> {
+    let nodes = model.labels.iter().zip(&model.nodes);
+    nodes.filter(|(_, place)| is_there(place[0])).map(|(label, _)| *label).collect()
+}
+
+/// Rigid patches of the nodes at x = 0 and at the other end.
+fn rigid_ends(model: &Model, length: f64) -> [InterfaceJob; 2] {
+    let rigid = |name, end| InterfaceJob { coupling: Coupling::Rigid, ..direct(name, &labels_at(model, |x| x == end)) };
+    [rigid("left", 0.0), rigid("right", length)]
+}
+
 /// Three springs to the ground, so soft that next to a heavy mass rounding of rotations about it, of unit modal mass, is more than what they
 /// make of its translations. They hold the body all the same: its lowest six modes are those of a rigid body on them.
 #[test]
 fn soft_springs_hold_a_part_with_a_heavy_mass() {
     let block = brick([4, 4, 1], [1.0, 1.0, 0.4], &Material::UNIT);
-    let at = |x: f64| {
-        let nodes = block.labels.iter().zip(&block.nodes);
-        nodes.filter(|(_, place)| place[0] == x).map(|(label, _)| *label).collect::<Vec<i64>>()
-    };
-    let ends = [("left", 0.0), ("right", 1.0)];
-    let ends = ends.map(|(name, x)| InterfaceJob { coupling: Coupling::Rigid, ..direct(name, &at(x)) });
-    let inside: Vec<i64> =
-        block.labels.iter().copied().filter(|label| !at(0.0).contains(label) && !at(1.0).contains(label)).collect();
+    let ends = rigid_ends(&block, 1.0);
+    let inside = labels_at(&block, |x| x > 0.0 && x < 1.0);
     let held = [inside[0], inside[inside.len() / 2], inside[inside.len() - 1]];
     for (digits, softness, mass) in [(17, 1e-8, 1e4), (17, 1e-6, 1e7), (12, 1e-6, 1e4), (9, 1e-4, 1e7), (9, 1e-4, 1e3)]
     {
@@ -320,15 +326,10 @@ fn soft_springs_hold_a_part_with_a_heavy_mass() {
 #[test]
 fn few_digits_and_a_heavy_mass_make_no_massless_mechanism() {
     let beam = brick([3, 2, 2], [3.0, 0.05, 0.05], &Material::UNIT);
-    let at = |x: f64| {
-        let nodes = beam.labels.iter().zip(&beam.nodes);
-        nodes.filter(|(_, place)| place[0] == x).map(|(label, _)| *label).collect::<Vec<i64>>()
-    };
-    let ends = [("left", 0.0), ("right", 3.0)];
-    let ends = ends.map(|(name, x)| InterfaceJob { coupling: Coupling::Rigid, ..direct(name, &at(x)) });
+    let ends = rigid_ends(&beam, 3.0);
     // 10³ and 10⁴ of what the beam weighs.
     for (mass, digits) in [(7.5, 7), (75.0, 7), (75_000.0, 9)] {
-        let model = rounded(&carrying(&beam, &at(1.0)[..1], mass), digits);
+        let model = rounded(&carrying(&beam, &labels_at(&beam, |x| x == 1.0)[..1], mass), digits);
         // Whether the digits suffice for frequencies is for the checks to say.
         let found =
             Case::new(&model, &ends).method("craig-bampton").run().unwrap_or_else(|error| panic!("refused: {error}"));
