@@ -455,6 +455,17 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
+    /// A superelement is not the model that it is read as.
+    #[entry("E-NO-MODEL", InputData, "reduce the full model, or what `supel export` writes")]
+    #[error("{}: this superelement {found} – expected one that is a model – {remedy}", path.display())]
+    NoModel {
+        /// The file.
+        path: PathBuf,
+        /// What speaks against it.
+        found: &'static str,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// K and M are one matrix.
     #[entry("E-SAME-MATRIX", InputData, "give the file of the other one")]
     #[error(

@@ -95,6 +95,15 @@ pub(crate) fn header_length(bytes: &[u8]) -> Result<u64> {
     Ok(length)
 }
 
+/// Whether a file that begins with these bytes is a superelement, sound or not: a length, and a header that has its metadata under `supel`.
+pub fn begins_as_superelement(bytes: &[u8]) -> bool {
+    let holds = |word: &[u8]| bytes.windows(word.len()).any(|window| window == word);
+    header_length(bytes).is_ok()
+        && bytes.get(PREFIX) == Some(&b'{')
+        && holds(b"\"__metadata__\"")
+        && holds(b"\"supel\"")
+}
+
 /// A file split into its two parts.
 #[derive(Debug)]
 pub(crate) struct Container<'a> {

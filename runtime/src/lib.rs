@@ -157,6 +157,7 @@ mod validation;
 
 #[cfg(feature = "std")]
 pub use atomic_file::{StagedFile, StagedWriter, abandoned_parts};
+pub use container::begins_as_superelement;
 pub use coordinate::Coordinate;
 pub use direction::Direction;
 #[cfg(feature = "std")]

@@ -60,6 +60,14 @@ impl Metadata {
     pub fn named_columns(&self) -> impl Iterator<Item = &Coordinate> {
         self.coordinates.iter().chain(self.dropped.iter().map(|dropped| &dropped.column))
     }
+
+    /// A label for each interface node: its own in the model or, for a node that the reduction added, the next number from 1 that no other
+    /// interface node has.
+    pub fn interface_labels(&self) -> Vec<i64> {
+        let taken: BTreeSet<i64> = self.interface_nodes.iter().filter_map(|node| node.label).collect();
+        let mut free = (1..).filter(|label| !taken.contains(label));
+        self.interface_nodes.iter().map(|node| node.label.or_else(|| free.next()).unwrap_or_default()).collect()
+    }
 }
 
 /// A program and its version.

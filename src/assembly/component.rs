@@ -11,6 +11,8 @@ use crate::error::{Error, Result};
 
 /// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
 const LARGEST_RIGID_ENERGY: f64 = 0.1;
+/// Energy of rigid-body motion in units of what double precision leaves from which on it is taken out: doing so costs some of these units.
+const BEYOND_DOUBLE: f64 = 100.0;
 
 /// A superelement with its name and its matrices.
 #[derive(Clone, Debug)]
@@ -21,14 +23,14 @@ pub struct Component {
     pub superelement: Superelement,
     /// What the reduction left out of its motions.
     pub omitted: Omitted,
-    /// K̂, r × r.
+    /// K̂, without K̂Û where that is more than rounding to double precision, r × r.
     pub(super) stiffness: Mat<f64>,
     /// M̂, r × r.
     pub(super) mass: Mat<f64>,
     /// Û, r × n_r.
     pub(super) rigid: Mat<f64>,
-    /// What is not known of an energy xᵀK̂x is xᵀDx, D r × r: the energy that rigid-body motion has by rounding of K̂, and beyond it
-    /// the error bar of the first mode.
+    /// What is not known of an energy xᵀK̂x is xᵀDx, D r × r: of rigid-body motion what rounding leaves, of motion beyond it as
+    /// much as in the file and the error bar of the first mode.
     pub(super) doubt: Mat<f64>,
 }
 
@@ -64,7 +66,14 @@ impl Component {
             return Err(Error::AssemblyRigid { name, value: rounding / unit });
         }
         let omitted = omitted(&superelement, stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
-        let doubt = doubt(mass.as_ref(), motions.as_ref(), (NOISE_FACTOR * rounding, known_to(&superelement)));
+        let momenta = dense::product(mass.as_ref(), motions.as_ref());
+        let of_double = rounding_of_double(stiffness.as_ref(), motions.as_ref());
+        let (stiffness, left) = match rounding > BEYOND_DOUBLE * of_double {
+            true => (without_rigid_energy(stiffness, (motions.as_ref(), momenta.as_ref())), of_double),
+            false => (stiffness, rounding),
+        };
+        let doubts = (NOISE_FACTOR * left, NOISE_FACTOR * rounding + known_to(&superelement));
+        let doubt = doubt(mass.as_ref(), &momenta, doubts);
         Ok(Self { name, superelement, omitted, stiffness, mass, rigid, doubt })
     }
 
@@ -120,12 +129,33 @@ fn largest_energy(stiffness: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> Resul
     Ok(values.into_iter().fold(0.0, |most, value| most.max(value.abs())))
 }
 
-/// ρ M̂ + κ (M̂ − M̂R(M̂R)ᵀ), ρ the rounding, κ what the first eigenvalue is known to, R rigid-body motions with RᵀM̂R = 1: what rounding of the
-/// full matrices makes of an energy is of motion beyond theirs. It has no moduli, which next to a heavy mass are far more than what such motion moves.
-fn doubt(mass: MatRef<'_, f64>, motions: MatRef<'_, f64>, (rounding, known_to): (f64, f64)) -> Mat<f64> {
-    let momenta = dense::product(mass, motions);
+/// PᵀK̂P with P = 1 − R(M̂R)ᵀ, R rigid-body motions with RᵀM̂R = 1: no force of rigid-body motion is left, which in K̂ is rounding and next to
+/// a component that is softer by orders would hold this one to the ground.
+fn without_rigid_energy(stiffness: Mat<f64>, (motions, momenta): (MatRef<'_, f64>, MatRef<'_, f64>)) -> Mat<f64> {
+    let forces = dense::product(stiffness.as_ref(), motions);
+    let energies = dense::gram(motions, forces.as_ref());
+    let half = forces - dense::product(momenta, energies.as_ref()) * faer::Scale(0.5);
+    let mut free = stiffness;
+    dense::add_product(free.as_mut(), -1.0, half.as_ref(), momenta.transpose());
+    dense::add_product(free.as_mut(), -1.0, momenta, half.transpose());
+    dense::symmetrise(&mut free);
+    free
+}
+
+/// What rounding to double precision of the terms alone leaves of the energy of rigid-body motion, ε |r|ᵀ|K̂||r|.
+fn rounding_of_double(stiffness: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> f64 {
+    let sizes = dense::absolute(motions);
+    let terms = dense::product(dense::absolute(stiffness).as_ref(), sizes.as_ref());
+    dense::dots(sizes.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max) * f64::EPSILON
+}
+
+/// α M̂R(M̂R)ᵀ + β (M̂ − M̂R(M̂R)ᵀ), R rigid-body motions with RᵀM̂R = 1: what rounding leaves of the energies of these, and what it and the error
+/// bars leave of those of others. It has no moduli, which next to a heavy mass are far more than what such motion moves.
+fn doubt(mass: MatRef<'_, f64>, momenta: &Mat<f64>, (of_rigid, of_others): (f64, f64)) -> Mat<f64> {
     let rigid = dense::product(momenta.as_ref(), momenta.transpose());
-    Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| (rounding + known_to) * mass[(i, j)] - known_to * rigid[(i, j)])
+    Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| {
+        of_rigid * rigid[(i, j)] + of_others * (mass[(i, j)] - rigid[(i, j)])
+    })
 }
 
 /// How far the first eigenvalue of a mode may be off by its error bar; zero without modes, and the eigenvalue itself where no bar is known.

@@ -9,6 +9,7 @@ use super::doctor::DoctorCommand;
 use super::export_command::ExportCommand;
 use super::flags::{CommandLine, Typed};
 use super::init::InitCommand;
+use super::job_document;
 use super::judging::{Answer, Strictness};
 use super::modes_command::ModesCommand;
 use super::plan_command::PlanCommand;
@@ -118,7 +119,7 @@ impl InspectCommand {
 }
 
 fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
-    let (job, remark) = flags.job.as_deref().map(Job::read_and_remark).transpose()?.unzip();
+    let (job, remark) = flags.job.as_deref().map(job_document::read).transpose()?.unzip();
     Ok(VerifyCommand {
         file: flags.file,
         job,

@@ -34,6 +34,7 @@ mod flag_values;
 mod flags;
 mod init;
 mod inspect;
+mod job_document;
 mod job_folder;
 mod job_process;
 mod judging;

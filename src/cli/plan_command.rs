@@ -1,6 +1,7 @@
 //! What was typed after `supel plan`, checked.
 
 use super::flags::PlanFlags;
+use super::job_document;
 use super::pipeline::Calibration;
 use super::threads::Threads;
 use crate::cost_forecast::Counting;
@@ -30,7 +31,7 @@ pub(super) enum PlanAnswer {
 impl PlanCommand {
     pub(super) fn build(flags: PlanFlags) -> Result<Self> {
         let PlanFlags { job, count_modes, calibrate, no_skip, threads, memory_gib, json } = flags;
-        let (mut job, remark) = Job::read_and_remark(&job)?;
+        let (mut job, remark) = job_document::read(&job)?;
         job.run.memory_gib = memory_gib.or(job.run.memory_gib);
         if no_skip {
             job.run.skip = Skip::Nothing;

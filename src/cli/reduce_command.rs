@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::flags::{ModelFlags, OutputFlags, ReduceFlags, ReductionFlags};
+use super::job_document;
 use super::judging::{Answer, Strictness};
 use super::selection_flags::{fixed, interfaces};
 use super::threads::Threads;
@@ -42,7 +43,7 @@ impl ReduceCommand {
         let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
         let (mut job, remarks) = match &document {
             Some(path) => {
-                let (job, remark) = Job::read_and_remark(path)?;
+                let (job, remark) = job_document::read(path)?;
                 let (job, of_interfaces) = override_job(job, model, &reduction, output)?;
                 (job, remark.into_iter().chain(of_interfaces).collect())
             }

@@ -1,4 +1,4 @@
-//! The text of a job that reduces an exported model, whatever the model was made of.
+//! The text of a job that reduces a model made of superelements, exported or as it is.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use toml::Value;
 use super::names::Names;
 use crate::report::printable;
 
-/// What a job says of the exported files that stand next to it.
+/// What a job says of the files of a model that stand next to it.
 #[derive(Clone, Debug)]
 pub(super) struct JobText {
     /// Comments at its head, a line each.
@@ -26,6 +26,37 @@ pub(super) struct JobText {
     pub(super) relief: Relief,
     /// What is held while the modes of mixed boundaries are computed.
     pub(super) held: Option<Vec<String>>,
+}
+
+/// Names of the files of a model beside its job, and of what the job makes of it.
+#[derive(Clone, Debug)]
+pub(super) struct ModelFiles {
+    stiffness: String,
+    mass: String,
+    dofs: String,
+    nodes: String,
+    loads: String,
+    superelement: String,
+}
+
+impl ModelFiles {
+    /// Those of an export.
+    pub(super) fn exported(names: &Names) -> Self {
+        Self {
+            stiffness: names.name("stiffness.mtx"),
+            mass: names.name("mass.mtx"),
+            dofs: names.name("dofs.csv"),
+            nodes: names.name("nodes.csv"),
+            loads: names.name("loads.mtx"),
+            superelement: names.name("again.supel"),
+        }
+    }
+
+    /// A superelement that is all of them, and what `names` begin with.
+    pub(super) fn of_superelement(file: &str, names: &Names) -> Self {
+        let [stiffness, mass, dofs, nodes, loads] = std::array::from_fn(|_| file.to_owned());
+        Self { stiffness, mass, dofs, nodes, loads, superelement: names.name("again.supel") }
+    }
 }
 
 /// Whether the model has a dof map and nodes.
@@ -75,17 +106,17 @@ pub(super) fn rows(rows: impl IntoIterator<Item = usize>) -> Value {
 
 impl JobText {
     /// The job, TOML.
-    pub(super) fn render(&self, names: &Names) -> String {
+    pub(super) fn render(&self, files: &ModelFiles) -> String {
         let mut text: String = self.remarks.iter().map(|remark| format!("# {}\n", printable(remark))).collect();
         text += "[model]\n";
         let mut put = |key: &str, value: Value| {
             let _ = writeln!(text, "{key} = {value}");
         };
-        put("stiffness", names.name("stiffness.mtx").into());
-        put("mass", names.name("mass.mtx").into());
+        put("stiffness", files.stiffness.clone().into());
+        put("mass", files.mass.clone().into());
         if self.map == Map::Nodes {
-            put("dofs", names.name("dofs.csv").into());
-            put("nodes", names.name("nodes.csv").into());
+            put("dofs", files.dofs.clone().into());
+            put("nodes", files.nodes.clone().into());
         }
         self.units.iter().for_each(|units| put("units", units.clone().into()));
         if !self.held_rotations.is_empty() {
@@ -95,12 +126,12 @@ impl JobText {
         self.interfaces.iter().for_each(|selection| text += &selection.render("interface"));
         self.fixed.iter().for_each(|selection| text += &selection.render("fixed"));
         for (column, LoadColumn { name, residual }) in self.loads.iter().enumerate() {
-            let (name, file) = (Value::from(name.clone()), Value::from(names.name("loads.mtx")));
+            let (name, file) = (Value::from(name.clone()), Value::from(files.loads.clone()));
             let _ =
                 write!(text, "\n[[load]]\nname = {name}\nfile = {file}\ncolumn = {column}\nresidual = {residual}\n");
         }
         text += &self.reduction();
-        let _ = write!(text, "\n[write]\nsuperelement = {}\n", Value::from(names.name("again.supel")));
+        let _ = write!(text, "\n[write]\nsuperelement = {}\n", Value::from(files.superelement.clone()));
         text
     }
 

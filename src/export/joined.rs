@@ -8,10 +8,10 @@ use toml::Value;
 
 use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
 use super::model_job::{MOVING_ROWS, held_rotations, method, n_modes};
-use super::stiffness_digits::{FEWEST_DIGITS, digits};
 use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members, Omitted};
 use crate::dense::unpacked;
 use crate::error::Result;
+use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
 use crate::number::quantity;
 
 /// An assembly that leaves as one model.

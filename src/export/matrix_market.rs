@@ -5,12 +5,13 @@
 //! has rows only. A superelement whose interface has no positions is one of bare rows and
 //! leaves without map and nodes. Numbers have seventeen digits, from which every double comes back to the bit.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use supel_runtime::{Coordinate, InterfaceNode, Matrix, NamedMatrix, Quantity, Superelement, Tensors};
 
 use super::format::{ExportedFile, Format};
+use super::job_text::ModelFiles;
 use super::joined::{Joined, label, packed};
 use super::load_transformation::transformations;
 use super::model_job::job;
@@ -35,7 +36,7 @@ impl Format for MatrixMarket {
     fn files(&self, superelement: &Superelement, names: &Names) -> Result<Vec<ExportedFile>> {
         let file = ExportedFile::text;
         let nodes = &superelement.metadata().interface_nodes;
-        let labels = labels(nodes);
+        let labels = superelement.metadata().interface_labels();
         let rows = rows(superelement, &labels);
         let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, matrices, .. } =
             superelement.tensors();
@@ -75,8 +76,8 @@ impl Format for MatrixMarket {
             files.push(file("dofs.csv", "node and direction of each row", dofs(superelement, &labels)));
             files.push(file("nodes.csv", "nodes", node_table(nodes, &labels)));
         }
-        let job = job(superelement, &labels)?;
-        files.extend(job.map(|job| file("job.toml", JOB, job.render(names))));
+        let job = job(superelement)?.ok();
+        files.extend(job.map(|job| file("job.toml", JOB, job.render(&ModelFiles::exported(names)))));
         Ok(files)
     }
 
@@ -99,7 +100,7 @@ impl Format for MatrixMarket {
             files.push(file("dofs.csv", "node and direction of each row", dof_map(named)));
             files.push(file("nodes.csv", "nodes", joined_nodes(&model.nodes)));
         }
-        files.extend(job.as_ref().map(|job| file("job.toml", JOB, job.render(names))));
+        files.extend(job.as_ref().map(|job| file("job.toml", JOB, job.render(&ModelFiles::exported(names)))));
         Some(files)
     }
 }
@@ -178,13 +179,6 @@ fn array(matrix: &Matrix) -> String {
         let _ = writeln!(text, "{}", number(matrix[at]));
     }
     text
-}
-
-/// A label for each interface node: its own in the model or, where the reduction added it, the next number that is nobody's.
-fn labels(nodes: &[InterfaceNode]) -> Vec<i64> {
-    let taken: BTreeSet<i64> = nodes.iter().filter_map(|node| node.label).collect();
-    let mut free = (1..).filter(|label| !taken.contains(label));
-    nodes.iter().map(|node| node.label.or_else(|| free.next()).unwrap_or_default()).collect()
 }
 
 fn dofs(superelement: &Superelement, labels: &[i64]) -> String {

@@ -13,10 +13,10 @@ mod names;
 mod op4;
 mod op4_binary;
 mod op4_content;
-mod stiffness_digits;
 
 pub use format::{ExportedFile, Format};
 pub use joined::Joined;
+pub use model_job::job_of;
 pub use names::Names;
 
 /// Every format, in the order in which help and documentation list them.

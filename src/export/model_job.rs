@@ -1,42 +1,50 @@
-//! The job that reduces an exported superelement again, as it is: its interfaces, its method, its modes.
+//! The job that reduces a superelement again, as it is: its interfaces, its method, its modes.
 
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::path::Path;
 
 use supel_runtime::{Coordinate, Flag, InterfaceNode, Metadata, Method, Superelement};
 
-use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
-use super::stiffness_digits::{FEWEST_DIGITS, digits};
+use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
+use super::names::Names;
 use crate::dense;
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
+use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
 
-/// The job; `labels` are those of the interface nodes. Without an interface there is nothing to reduce a superelement to, and an
-/// interface that just holds its component has no stiffness but rounding. A mass that is singular by its method is that of no model, and
-/// internal forces of a preloaded component are not in its file.
-pub(super) fn job(superelement: &Superelement, labels: &[i64]) -> Result<Option<JobText>> {
-    let tensors = superelement.tensors();
-    if superelement.metadata().flags.contains(&Flag::StiffnessOnly) {
-        return Ok(None);
-    }
-    let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
-    let digits = digits(k.as_ref(), m.as_ref(), u.as_ref())?;
-    let is_rigid = superelement.n_rigid() >= superelement.n_coordinates();
-    let is_marked = |flag: &Flag| matches!(flag, Flag::SingularMass | Flag::Preloaded);
-    if superelement.n_interface() == 0
-        || is_rigid
-        || superelement.metadata().flags.iter().any(is_marked)
-        || digits.is_some_and(|digits| digits < FEWEST_DIGITS)
-    {
-        return Ok(None);
+/// The job that reduces the superelement in the file `path` as it is: its matrices, its nodes and its loads are read of that file.
+///
+/// # Errors
+/// [`Error::NoModel`]; [`Error::NameNotText`]; [`Error::DenseEigen`].
+pub fn job_of(superelement: &Superelement, path: &Path) -> Result<String> {
+    let file = path.file_name().and_then(OsStr::to_str);
+    let file = file.ok_or_else(|| Error::NameNotText { key: "JOB", path: path.to_owned() })?;
+    let names = Names::starting_with(&path.with_extension(""));
+    let remedy = "see docs/export.md, \"Reducing again\"";
+    let job = job(superelement)?.map_err(|found| Error::NoModel { path: path.to_owned(), found, remedy })?;
+    Ok(job.render(&ModelFiles::of_superelement(file, &names)))
+}
+
+/// The job, or why there is none.
+pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<JobText, &'static str>> {
+    let labels = superelement.metadata().interface_labels();
+    let digits = match no_job(superelement) {
+        Some(why) => return Ok(Err(why)),
+        None => digits_of(superelement)?,
+    };
+    if digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
+        return Ok(Err("has no stiffness but rounding"));
     }
     let (method, relief) = method(superelement);
     let moves = superelement.has_rigid_amplitudes();
-    Ok(Some(JobText {
+    Ok(Ok(JobText {
         remarks: if moves { vec![MOVING_ROWS.to_owned()] } else { Vec::new() },
         map: if labels.is_empty() || moves { Map::Rows } else { Map::Nodes },
         units: superelement.metadata().units.clone(),
         held_rotations: held_rotations(superelement),
         digits,
-        interfaces: if moves { interfaces_of_rows(superelement) } else { interfaces(superelement, labels) },
+        interfaces: if moves { interfaces_of_rows(superelement) } else { interfaces(superelement, &labels) },
         fixed: Vec::new(),
         loads: loads(superelement),
         method,
@@ -44,6 +52,30 @@ pub(super) fn job(superelement: &Superelement, labels: &[i64]) -> Result<Option<
         relief,
         held: (method == "mixed-interface").then(|| held(superelement.metadata())),
     }))
+}
+
+/// Why nothing reduces a superelement, whatever its numbers. An interface that just holds its component has no stiffness but rounding. A mass
+/// that is singular by its method is that of no model, and internal forces of a preloaded component are not in its file.
+fn no_job(superelement: &Superelement) -> Option<&'static str> {
+    let is_marked = |flag: &Flag| superelement.metadata().flags.contains(flag);
+    let reasons = [
+        (is_marked(&Flag::StiffnessOnly), "has no mass"),
+        (superelement.n_interface() == 0, "has no interface, to which it could be reduced"),
+        (
+            superelement.n_rigid() >= superelement.n_coordinates(),
+            "has an interface that just holds it, and no stiffness",
+        ),
+        (is_marked(&Flag::SingularMass), "has the singular mass of MacNeal's method, which is that of no model"),
+        (is_marked(&Flag::Preloaded), "is preloaded, and its internal forces are not in its file"),
+        (has_free_dof(&superelement.tensors().stiffness), NO_STIFFNESS),
+    ];
+    reasons.into_iter().find_map(|(is_so, why)| is_so.then_some(why))
+}
+
+fn digits_of(superelement: &Superelement) -> Result<Option<i64>> {
+    let tensors = superelement.tensors();
+    let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    digits(k.as_ref(), m.as_ref(), u.as_ref())
 }
 
 /// Why a job does without map and nodes that stand next to it.

@@ -70,6 +70,8 @@ pub enum DigitsBy {
     FieldWidth,
     /// The job states them.
     Job,
+    /// Rigid-body motion: a stiffness that was condensed carries the rounding of the larger one.
+    RigidMotion,
 }
 
 impl DigitsBy {
@@ -91,6 +93,11 @@ impl Digits {
     /// As a job states them, each value relative to itself.
     pub(super) const fn stated(significant: u32) -> Self {
         Self { by: DigitsBy::Job, ..Self::relative(significant) }
+    }
+
+    /// As rigid-body motion shows a condensed stiffness to have, each value relative to itself.
+    pub(super) const fn condensed(significant: u32) -> Self {
+        Self { by: DigitsBy::RigidMotion, ..Self::relative(significant) }
     }
 
     /// Of values that are stored in a type of so many digits.
@@ -125,6 +132,7 @@ impl Digits {
         let digits = counted(self.significant, "digit", "digits");
         match (self.decimals.map(decimals), self.by) {
             (_, DigitsBy::Job) => format!("{digits} as the job states"),
+            (_, DigitsBy::RigidMotion) => format!("{digits} as rigid-body motion shows"),
             (Some(decimals), DigitsBy::SinglePrecision | DigitsBy::FieldWidth) => format!("{digits} and {decimals}"),
             (Some(decimals), DigitsBy::Values) => decimals,
             (None, _) => digits,

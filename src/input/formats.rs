@@ -18,12 +18,14 @@ use super::node_table::NodeTable;
 use super::npy_matrix::NpyMatrix;
 use super::npz::Npz;
 use super::op4::Op4;
+use super::superelement_file::SuperelementFile;
 use super::unsupported_format::{self, Wanted};
 use super::user_element::UserElement;
 use crate::error::{Error, Result};
 
 /// Formats of matrices.
-const MATRICES: [&dyn MatrixFormat; 11] = [
+const MATRICES: [&dyn MatrixFormat; 12] = [
+    &SuperelementFile,
     &MatrixMarket,
     &Hdf5Matrix,
     &Matlab5,
@@ -37,10 +39,10 @@ const MATRICES: [&dyn MatrixFormat; 11] = [
     &Coordinate,
 ];
 /// Formats of nodes.
-const NODES: [&dyn NodeFormat; 7] =
-    [&Hdf5Mesh, &mesh::DECK, &mesh::GMSH, &mesh::FRD, &mesh::VTK, &mesh::VTU, &NodeTable];
+const NODES: [&dyn NodeFormat; 8] =
+    [&SuperelementFile, &Hdf5Mesh, &mesh::DECK, &mesh::GMSH, &mesh::FRD, &mesh::VTK, &mesh::VTU, &NodeTable];
 /// Formats of dof maps.
-const DOF_MAPS: [&dyn DofMapFormat; 3] = [&NastranRows, &AnsysMapping, &DofText];
+const DOF_MAPS: [&dyn DofMapFormat; 4] = [&SuperelementFile, &NastranRows, &AnsysMapping, &DofText];
 
 /// The format of a matrix: the one that the job names, or the only one that the content fits.
 ///

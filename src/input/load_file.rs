@@ -1,8 +1,10 @@
-//! Loads in text: Matrix Market files of as many rows as the matrices have, one column for each load.
+//! Loads: Matrix Market files of as many rows as the matrices have, one column for each load, or the load vectors of a superelement.
 
 use std::path::Path;
 
+use super::file_start::FileStart;
 use super::rectangular::{Content, RectangularFile};
+use super::superelement_file;
 use crate::error::{Error, Result};
 use crate::regular_file::unchanged;
 
@@ -31,13 +33,16 @@ pub struct WantedColumn<'a> {
 /// Reads one column of a file of loads, plain or gzipped.
 ///
 /// # Errors
-/// A file that cannot be read or is no Matrix Market file of loads; [`Error::LoadRows`] and [`Error::LoadColumn`] where it has another size;
+/// A file that cannot be read or is neither a Matrix Market file of loads nor a superelement; [`Error::LoadRows`] and [`Error::LoadColumn`] where it has another size;
 /// [`Error::Changed`] where it is written meanwhile.
 pub fn load_column(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
     unchanged(wanted.path, || read(wanted))
 }
 
 fn read(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
+    if superelement_file::begins(&FileStart::of(wanted.path)?) {
+        return of_superelement(wanted);
+    }
     let file = RectangularFile::open(wanted.path, Content::Load { load: wanted.load, n_rows: wanted.n_rows })?;
     let column = column_of(file.n_columns, wanted)?;
     let mut values = vec![0.0; wanted.n_rows];
@@ -48,6 +53,18 @@ fn read(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
         Ok(())
     })?;
     Ok(LoadColumn { values, digest })
+}
+
+/// A load vector that a superelement has.
+fn of_superelement(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
+    let loads = superelement_file::load_vectors(wanted.path)?;
+    let column = column_of(loads.columns.cols() as u64, wanted)? as usize;
+    let values: Vec<f64> = (0..loads.columns.rows()).map(|row| loads.columns[(row, column)]).collect();
+    if values.len() != wanted.n_rows {
+        let (path, load, found) = (wanted.path.to_owned(), wanted.load.to_owned(), values.len() as u64);
+        return Err(Error::LoadRows { path, load, found, n: wanted.n_rows });
+    }
+    Ok(LoadColumn { values, digest: loads.digest })
 }
 
 /// The column that is wanted, from zero.

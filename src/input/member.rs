@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::file_start::has_extension;
 
 /// Extensions of files that hold several matrices, so that a missing one of them is missed by its own name.
-const CONTAINERS: [&str; 14] =
-    ["h5", "hdf5", "hdf", "mat", "h5ad", "he5", "op4", "pch", "bdf", "nas", "dat", "npz", "jld2", "punch"];
+const CONTAINERS: [&str; 15] =
+    ["supel", "h5", "hdf5", "hdf", "mat", "h5ad", "he5", "op4", "pch", "bdf", "nas", "dat", "npz", "jld2", "punch"];
 
 /// The file of a path, and the matrix in it that follows a colon.
 pub(super) fn split_member(path: &Path) -> (PathBuf, Option<String>) {

@@ -30,6 +30,8 @@ pub enum Layout {
     HarwellBoeing,
     /// HDF5: MATLAB v7.3, PETSc, anndata, h5sparse, Exudyn, Octave, Julia, Binsparse, MSC Nastran.
     Hdf5,
+    /// What supel itself writes: K̂, M̂ and further matrices of a superelement.
+    Superelement,
 }
 
 impl Layout {

@@ -92,7 +92,9 @@ fn assert_modes_of(found: &Superelement, assembly: &Assembly, whole: &[f64]) {
         // Bars that say nothing would let anything pass.
         assert!(allowed < 1e-5 * found, "mode {k} of {found} Hz: {allowed:e}");
         let truth = hertz(whole[first + k]);
-        assert!(mode.at_least_hz.expect("a bound") <= truth + allowed && truth <= found + allowed, "mode {k}: {truth}");
+        let least = mode.at_least_hz.expect("a bound");
+        let is_between = least <= truth + allowed && truth <= found + allowed;
+        assert!(is_between, "mode {k}: {truth} is not from {least} to {found} ± {allowed:e}");
     }
 }
 

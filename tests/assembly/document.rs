@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel_models::transform::{carrying, rounded};
-use supel_models::{Material, brick};
+use supel_models::transform::{carrying, rounded, scaled, translated};
+use supel_models::{Material, Model, brick};
 use supel_testing::place::{Place, supel};
 
 use crate::{beams, line};
@@ -107,6 +107,49 @@ fn few_digits_leave_elastic_modes_beside_a_heavy_mass_their_energy() {
             assert_eq!(kind, "elastic", "{mass}, {digits} digits");
             // Nine digits of a beam of 1:60 leave five of its first frequency.
             assert!((hertz / expected - 1.0).abs() < 1e-4, "{mass}, {digits} digits: {hertz} for {expected}");
+        }
+    }
+}
+
+/// Rounding of a stiff part is no spring to the ground for it, however soft what holds it, and its error bar is nothing to its rigid-body motion.
+#[test]
+fn few_digits_of_a_stiff_part_do_not_hold_it() {
+    let beam = brick([3, 2, 2], [3.0, 0.05, 0.05], &Material::UNIT);
+    let next = translated(&beam, [3.0, 0.0, 0.0]);
+    let at = |x: f64| {
+        let nodes = beam.labels.iter().zip(&beam.nodes).filter(|(_, place)| place[0] == x);
+        nodes.map(|(label, _)| label.to_string()).collect::<Vec<String>>().join(",")
+    };
+    let ends = format!("--rigid-interface a={} --rigid-interface b={}", at(0.0), at(3.0));
+    let all = Place::new();
+    let reduce = |name: &str, model: &Model| {
+        let place = Place::with(model);
+        place.reduce(&place.model_flags(), &format!("{ends} --method craig-bampton --modes 6")).expect(ExitCode::Done);
+        all.write(name, &place.bytes("x.supel"));
+    };
+    let softness = 1e-5;
+    reduce("soft.supel", &scaled(&next, softness, 1.0));
+    let mut found = Vec::new();
+    for digits in [17, 9, 8, 7] {
+        reduce("stiff.supel", &rounded(&beam, digits));
+        let (stiff, soft) = (all.text("stiff.supel"), all.text("soft.supel"));
+        let flags = ["--join", "stiff.b=soft.a", "--fix", "soft.b", "--count", "8", "--json"];
+        let ended = supel(&[&["modes", &stiff, &soft], &flags[..]].concat()).expect(ExitCode::Done);
+        let document: Value = serde_json::from_str(&ended.out).expect("JSON");
+        assert!(document["components"][0]["omits_unknown"].is_null(), "{digits} digits: {document:#}");
+        let modes = document["modes"].as_array().expect("a list").iter();
+        let hertz = |mode: &Value| {
+            assert_eq!(mode["kind"], "elastic", "{digits} digits");
+            mode["frequency_hz"].as_f64().expect("Hz")
+        };
+        found.push(modes.map(hertz).collect::<Vec<f64>>());
+    }
+    // The stiff part takes a share of the energy like its softness, and its elements are known to seven digits of the axial stiffness,
+    // which is some thousand times that of bending.
+    let tolerance = softness * 1e-4 + 1e-6;
+    for hertz in &found[1..] {
+        for (short, whole) in hertz.iter().zip(&found[0]) {
+            assert!((short / whole - 1.0).abs() < tolerance, "{short} for {whole} Hz");
         }
     }
 }

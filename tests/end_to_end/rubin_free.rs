@@ -235,7 +235,9 @@ fn a_free_interface_is_for_rubins_method_alone() {
     };
     let told = refused("method = \"rubin\", modes = { count = 5 }");
     assert!(told.contains("E-INTERFACE-RANK"), "{told}");
-    assert_eq!(told, refused("method = \"guyan\""), "found before anything is factored");
+    let planned = supel(&["plan", &place.text("job.toml")]).expect(ExitCode::ModelPhysics).err;
+    assert_eq!(planned, told, "found before anything is factored");
+    assert_eq!(told, refused("method = \"guyan\""));
 }
 
 /// The plan says that constraint modes do not exist there, and the matrices of the file are Rubin's already.

@@ -10,12 +10,14 @@ use super::{HELD, HINGED, export, reduced};
 
 const METHODS: [&str; 2] = ["craig-bampton", "herting"];
 
-/// Reduces x.supel again by the job that was exported with it.
+/// Reduces x.supel again by the job that was exported with it, and by itself, which is the same.
 fn again(place: &Place) -> (Superelement, Value) {
     export(place, "matrix-market", &[]).expect(ExitCode::Done);
     let ended = supel(&["reduce", &place.text("x.job.toml")]);
     let job = String::from_utf8(place.bytes("x.job.toml")).expect("text");
     assert_eq!(ended.code, ExitCode::Done, "{}{}\n{job}", ended.out, ended.err);
+    supel(&["reduce", &place.text("x.supel"), "--output", &place.text("direct.supel")]).expect(ExitCode::Done);
+    assert!(place.superelement("direct.supel").tensors() == place.superelement("x.again.supel").tensors(), "{job}");
     (place.superelement("x.again.supel"), place.report("x.again.report.json"))
 }
 

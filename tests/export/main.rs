@@ -1,6 +1,7 @@
 //! `supel export`: every format says what the superelement says, read by readers that stand here.
 
 mod again;
+mod as_model;
 mod command;
 mod matrix_market;
 mod op4;

@@ -13,7 +13,7 @@ use crate::dense;
 use crate::error::Result;
 
 /// Digits of K̂ below which a second reduction cannot tell stiffness from rounding.
-pub(super) const FEWEST_DIGITS: i64 = 4;
+pub(crate) const FEWEST_DIGITS: i64 = 4;
 
 /// The digits that K̂ has by its rigid-body motion; nothing where it has none or all.
 ///
@@ -21,7 +21,7 @@ pub(super) const FEWEST_DIGITS: i64 = 4;
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
-pub(super) fn digits(k: MatRef<'_, f64>, m: MatRef<'_, f64>, u: MatRef<'_, f64>) -> Result<Option<i64>> {
+pub(crate) fn digits(k: MatRef<'_, f64>, m: MatRef<'_, f64>, u: MatRef<'_, f64>) -> Result<Option<i64>> {
     /// Combinations of the columns of Q, in which more cancels, do worse than each.
     const MARGIN: f64 = 10.0;
     /// As many identify almost every double, and reading takes them for all.

@@ -1,0 +1,23 @@
+//! The document of a job that a command names: one that a person wrote, or a superelement, which is a model with a job of its own.
+
+use std::path::Path;
+
+use super::superelement_file;
+use crate::error::Result;
+use crate::export::job_of;
+use crate::input::is_superelement;
+use crate::job::{Holder, Job};
+
+/// The job, checked, its paths made absolute, and what is to be said of the folder from which they count.
+///
+/// # Errors
+/// Those of [`Job::read_and_remark`]; of a superelement those of [`job_of`].
+pub(super) fn read(path: &Path) -> Result<(Job, Option<String>)> {
+    if !is_superelement(path)? {
+        return Job::read_and_remark(path);
+    }
+    let (superelement, _) = superelement_file::read(path)?;
+    let job = Job::parse(&job_of(&superelement, path)?, path)?;
+    job.validate()?;
+    job.located(path, Holder::Document)
+}

@@ -1,0 +1,212 @@
+//! A superelement as a model: K̂, M̂ and further matrices, what each row is, where its interface nodes are, its load vectors.
+//!
+//! Modal amplitudes are scalar dofs, rows that no node has and no rigid-body motion moves, because Ψ carries rigid-body motion by the
+//! interface alone (24). Where rigid-body modes are coordinates beside an interface amplitudes do move, which no dof map can say. K̂ carries
+//! the rounding of the stiffness that it was condensed from, see [`super::condensed_digits`].
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use supel_runtime::{Coordinate, Flag, Matrix, Superelement, Verdict};
+
+use super::allowance::Allowance;
+use super::assembled::Collector;
+use super::condensed_digits::digits;
+use super::digits::Digits;
+use super::file_start::FileStart;
+use super::format::{
+    DirectionBase, DofMapFormat, Format, MatrixFormat, MatrixSource, NodeFormat, ReadDofs, ReadMatrix, ReadNodes,
+    Sureness,
+};
+use super::named::chosen;
+use super::{MatrixInput, MatrixRole};
+use crate::dense;
+use crate::dofs::{Dof, Nodes};
+use crate::error::{Error, Result};
+use crate::job::Layout;
+
+/// What supel itself writes.
+pub(super) struct SuperelementFile;
+
+impl Format for SuperelementFile {
+    fn sureness(&self, start: &FileStart<'_>) -> Sureness {
+        if begins(start) { Sureness::Certain } else { Sureness::Unlikely }
+    }
+}
+
+/// Whether a file is a superelement, by its first bytes.
+///
+/// # Errors
+/// A file that cannot be opened or read.
+pub fn is_superelement(path: &Path) -> Result<bool> {
+    Ok(begins(&FileStart::of(path)?))
+}
+
+/// Whether a file that begins so is a superelement.
+pub(super) fn begins(start: &FileStart<'_>) -> bool {
+    start.packing.is_none() && supel_runtime::begins_as_superelement(&start.head)
+}
+
+impl MatrixFormat for SuperelementFile {
+    fn layout(&self) -> Layout {
+        Layout::Superelement
+    }
+
+    fn has_members(&self) -> bool {
+        true
+    }
+
+    fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
+        let path = source.file.as_path();
+        let (superelement, digest) = opened(path, source.allowance)?;
+        let named = matrices(&superelement);
+        let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
+        let (name, matrix) = named[chosen(path, &names, source.member.as_deref(), source.role)?];
+        if name == MASS
+            && superelement.metadata().flags.contains(&Flag::SingularMass)
+            && source.role == MatrixRole::Mass
+        {
+            return Err(no_model(path, "has the singular mass of MacNeal's method", SINGULAR_MASS));
+        }
+        if name == STIFFNESS && source.role == MatrixRole::Stiffness && has_free_dof(matrix) {
+            return Err(no_model(path, NO_STIFFNESS, FREE_DOF));
+        }
+        let mut input =
+            entries(matrix, source)?.into_matrix(source, (matrix.rows() as u32, source.role.undeclared()), digest)?;
+        if name == STIFFNESS && source.stated_digits.is_none() {
+            input.digits = condensed(&superelement, &input)?;
+        }
+        Ok(ReadMatrix::with_size(input))
+    }
+}
+
+impl DofMapFormat for SuperelementFile {
+    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs> {
+        let (superelement, _) = opened(path, &Allowance::of(None))?;
+        if superelement.has_rigid_amplitudes() {
+            return Err(no_model(
+                path,
+                "has modal amplitudes that move with rigid-body motion, which no dof map can say",
+                NO_MAP,
+            ));
+        }
+        let metadata = superelement.metadata();
+        let labels = metadata.interface_labels();
+        let dof = |coordinate: &Coordinate| match coordinate {
+            Coordinate::Interface { node, direction } => Some(Dof { node: labels[*node], direction: *direction }),
+            _ => None,
+        };
+        let dofs = metadata.coordinates.iter().take(n).map(dof).collect();
+        let n_rows = metadata.coordinates.len();
+        Ok(ReadDofs { dofs, n_rows, base: DirectionBase::One, local_directions: None })
+    }
+}
+
+impl NodeFormat for SuperelementFile {
+    fn read(&self, path: &Path, allowance: &Allowance) -> Result<ReadNodes> {
+        let (superelement, _) = opened(path, allowance)?;
+        let metadata = superelement.metadata();
+        if metadata.interface_nodes.is_empty() {
+            return Err(no_model(path, "has an interface of rows without nodes", NO_MAP));
+        }
+        let mut nodes = Nodes::default();
+        let mut found: HashMap<i64, usize> = HashMap::new();
+        for (own, label) in metadata.interface_nodes.iter().zip(metadata.interface_labels()) {
+            // A node of two interfaces comes once for each.
+            let at = *found.entry(label).or_insert_with(|| {
+                nodes.labels.push(label);
+                nodes.coordinates.push(own.position);
+                nodes.labels.len() - 1
+            });
+            nodes.groups.entry(own.name.clone()).or_default().push(at);
+        }
+        Ok(ReadNodes::along_the_axes(nodes, None))
+    }
+}
+
+/// The load vectors of a superelement, one in each column.
+pub(super) struct LoadVectors {
+    pub(super) columns: Matrix,
+    /// BLAKE3 of the file.
+    pub(super) digest: String,
+}
+
+/// # Errors
+/// Those of a superelement that cannot be read or is no model.
+pub(super) fn load_vectors(path: &Path) -> Result<LoadVectors> {
+    let (superelement, digest) = opened(path, &Allowance::of(None))?;
+    let none = || Matrix::from_fn(superelement.n_coordinates(), 0, |_, _| 0.0);
+    let columns = superelement.tensors().load_vectors.clone().unwrap_or_else(none);
+    Ok(LoadVectors { columns, digest })
+}
+
+const STIFFNESS: &str = "stiffness";
+const MASS: &str = "mass";
+
+/// What speaks against a superelement that moves in a direction of its interface without strain, as nodes in one plane do across it.
+pub(crate) const NO_STIFFNESS: &str = "has no stiffness but rounding at a dof of its interface";
+
+/// Whether a diagonal is negative, which in a verified K̂ is rounding of none.
+pub(crate) fn has_free_dof(stiffness: &Matrix) -> bool {
+    (0..stiffness.rows()).any(|row| stiffness[(row, row)] < 0.0)
+}
+
+/// What to do instead.
+const FREE_DOF: &str = "reduce the full model with more interface nodes, or with these as a rigid patch";
+const SINGULAR_MASS: &str = "reduce the full model by another method";
+const NO_MAP: &str = "leave model.dofs and model.nodes out and name rows";
+
+fn no_model(path: &Path, found: &'static str, remedy: &'static str) -> Error {
+    Error::NoModel { path: path.to_owned(), found, remedy }
+}
+
+/// The superelement in a file and the digest of its bytes.
+fn opened(path: &Path, allowance: &Allowance) -> Result<(Superelement, String)> {
+    let failed = |error| Error::of_superelement(path, error);
+    let bytes = supel_runtime::file_bytes(path).map_err(failed)?;
+    allowance.claim(path).set(bytes.len() as u64)?;
+    let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    if superelement.metadata().verification.verdict == Verdict::Fail {
+        let remedy = "see `supel inspect`, or go on with what `supel export --allow-unverified` writes";
+        return Err(no_model(path, "failed a check when it was made", remedy));
+    }
+    if superelement.metadata().flags.contains(&Flag::Preloaded) {
+        let remedy = "reduce the full model, or several of them as one";
+        return Err(no_model(path, "is preloaded, and its internal forces are not in its file", remedy));
+    }
+    Ok((superelement, blake3::hash(&bytes).to_hex().to_string()))
+}
+
+/// Its matrices with their names; no mass where the job asked for none.
+fn matrices(superelement: &Superelement) -> Vec<(&str, &Matrix)> {
+    let tensors = superelement.tensors();
+    let mass = (tensors.mass.rows() > 0).then_some((MASS, &tensors.mass));
+    let damping = tensors.damping.as_ref().map(|damping| ("damping", damping));
+    let names = superelement.metadata().matrices.iter().map(|matrix| matrix.name.as_str());
+    let further = names.zip(&tensors.matrices);
+    std::iter::once((STIFFNESS, &tensors.stiffness)).chain(mass).chain(damping).chain(further).collect()
+}
+
+/// Its entries but for zeros, row by row.
+fn entries<'a>(matrix: &Matrix, source: &MatrixSource<'a>) -> Result<Collector<'a>> {
+    let mut entries = Collector::new(source, source.role.undeclared());
+    let n = matrix.rows();
+    for (row, col) in (0..n).flat_map(|row| (0..n).map(move |col| (row, col))) {
+        let value = matrix[(row, col)];
+        if value != 0.0 {
+            entries.push(row as u32, col as u32, value)?;
+        }
+    }
+    Ok(entries)
+}
+
+/// The digits that rigid-body motion shows K̂ to have, no more than its values.
+fn condensed(superelement: &Superelement, input: &MatrixInput) -> Result<Digits> {
+    let tensors = superelement.tensors();
+    if tensors.mass.rows() == 0 {
+        return Ok(input.digits);
+    }
+    let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    let shown = digits(k.as_ref(), m.as_ref(), u.as_ref())?;
+    Ok(shown.map_or(input.digits, |shown| Digits::condensed((shown as u32).min(input.digits.significant))))
+}

@@ -1,0 +1,177 @@
+//! A superelement read as a model without an export: its matrices, map, nodes and loads.
+
+use supel::cli::ExitCode;
+use supel_models::{Material, brick};
+use supel_runtime::{Flag, Metadata, Superelement, Verdict};
+use supel_testing::place::{Ended, Place, supel};
+
+use super::{assert_same_bits, export, reduced};
+
+/// `supel reduce` of a job whose model is x.supel.
+fn reduce_rows(place: &Place, keys: &str, interface: &str) -> Ended {
+    let job = format!(
+        "interface = [{{ name = \"all\", nodes = {interface} }}]\nreduction = {{ method = \"craig-bampton\", modes = {{ count = 3 }} }}\n\
+         write = {{ superelement = \"second.supel\" }}\n\
+         [model]\nstiffness = \"x.supel\"\nmass = \"x.supel\"\n{keys}\n"
+    );
+    place.write("second.toml", job.as_bytes());
+    supel(&["reduce", &place.text("second.toml")])
+}
+
+const WITH_NODES: &str = "dofs = \"x.supel\"\nnodes = \"x.supel\"";
+
+/// x.supel with other metadata.
+fn altered(place: &Place, alter: impl Fn(&mut Metadata)) {
+    let file = place.superelement("x.supel");
+    let mut metadata = file.metadata().clone();
+    alter(&mut metadata);
+    let file = Superelement::new(file.tensors().clone(), metadata).expect("a superelement still");
+    place.write("x.supel", &file.to_bytes().expect("bytes").bytes);
+}
+
+#[track_caller]
+fn assert_refused(ended: Ended, words: &[&str]) {
+    let told = ended.expect(ExitCode::InputData).err;
+    for word in words {
+        assert!(told.contains(word), "{word:?} is not in {told}");
+    }
+}
+
+#[test]
+fn matrices_have_their_names_and_their_bits() {
+    let place = reduced("herting", "");
+    let file = place.superelement("x.supel");
+    let rows = |name: &str| -> Vec<Vec<f64>> {
+        let target = place.text("one.npz");
+        supel(&["convert", &format!("{}:{name}", place.text("x.supel")), &target]).expect(ExitCode::Done);
+        let read = supel::input::SingleMatrix { file: target.into(), layout: None, dofs: None };
+        let matrix = read.read(&supel::input::Allowance::of(None)).expect("a matrix").input.matrix;
+        let n = matrix.rows();
+        (0..n).map(|i| (0..n).map(|j| matrix.get(i, j).copied().unwrap_or(0.0)).collect()).collect()
+    };
+    assert_same_bits(&rows("stiffness"), &file.tensors().stiffness, "stiffness");
+    assert_same_bits(&rows("mass"), &file.tensors().mass, "mass");
+    let other = format!("{}:damping", place.text("x.supel"));
+    assert_refused(supel(&["convert", &other, &place.text("d.npz")]), &["E-NO-SUCH-MATRIX", "stiffness", "mass"]);
+}
+
+/// Without a word of the job a condensed stiffness has the digits that rigid-body motion shows; taken for exact it would be indefinite.
+#[test]
+fn digits_of_a_condensed_stiffness_are_seen() {
+    let place = Place::with(&brick([24, 1, 1], [3.0, 0.05, 0.04], &Material::STEEL_SI));
+    let ends = "--rigid-interface left=1,26,51,76 --rigid-interface right=25,50,75,100";
+    place.reduce(&place.model_flags(), &format!("{ends} --method craig-bampton --modes 4")).expect(ExitCode::Done);
+    reduce_rows(&place, WITH_NODES, "\"group:left\"").expect(ExitCode::Done);
+    let report = place.report("second.report.json");
+    let stiffness = &report["body"]["model"]["stiffness"];
+    assert_eq!(stiffness["digits_by"], "rigid-motion", "{report:#}");
+    assert!(stiffness["digits"].as_u64().is_some_and(|digits| (4..16).contains(&digits)), "{stiffness}");
+    let stated = reduce_rows(&place, &format!("{WITH_NODES}\nstiffness_digits = 17"), "\"group:left\"");
+    assert_ne!(stated.code, ExitCode::Done, "{}", stated.out);
+}
+
+#[test]
+fn interfaces_are_groups_and_rows_may_stand_alone() {
+    let place = reduced("herting", "");
+    reduce_rows(&place, WITH_NODES, "\"group:hub\"").expect(ExitCode::Done);
+    let second = place.superelement("second.supel");
+    let first = place.superelement("x.supel");
+    let hub = &first.metadata().interface_nodes[3];
+    assert_eq!(second.metadata().interface_nodes[0].position, hub.position);
+    reduce_rows(&place, "", "{ rows = [0, 1, 2, 9, 10, 11, 12, 13, 14] }").expect(ExitCode::Done);
+}
+
+#[test]
+fn what_was_made_of_a_superelement_is_verified_against_it() {
+    let place = reduced("craig-bampton", "");
+    let file = place.text("x.supel");
+    supel(&["reduce", &file, "--modes", "2"]).expect(ExitCode::Done);
+    let made = place.text("x.again.supel");
+    supel(&["verify", &made, "--reproduce"]).expect(ExitCode::Done);
+    supel(&["plan", &file]).expect(ExitCode::Done);
+    // The job of the file keeps five modes, and the one that made it two.
+    assert!(supel(&["verify", &made, "--job", &file]).expect(ExitCode::CheckFailed).out.contains("modes"));
+    supel(&["reduce", &file]).expect(ExitCode::Done);
+    supel(&["verify", &made, "--job", &file]).expect(ExitCode::Done);
+    // Another superelement under the same name is another model.
+    place.write("x.supel", &reduced("herting", "").bytes("x.supel"));
+    let told = supel(&["verify", &made, "--reproduce"]);
+    assert_ne!(told.code, ExitCode::Done, "{}", told.out);
+}
+
+#[test]
+fn what_is_no_model_is_refused_by_its_reason() {
+    let place = reduced("herting", "");
+    altered(&place, |metadata| metadata.verification.verdict = Verdict::Fail);
+    assert_refused(reduce_rows(&place, WITH_NODES, "[1]"), &["E-NO-MODEL", "failed a check", "--allow-unverified"]);
+    let place = reduced("herting", "");
+    altered(&place, |metadata| metadata.flags.extend([Flag::Preloaded]));
+    for ended in [supel(&["reduce", &place.text("x.supel")]), reduce_rows(&place, WITH_NODES, "[1]")] {
+        assert_refused(ended, &["E-NO-MODEL", "preloaded"]);
+    }
+    let place = reduced("macneal", "");
+    for ended in [supel(&["reduce", &place.text("x.supel")]), reduce_rows(&place, WITH_NODES, "[1]")] {
+        assert_refused(ended, &["E-NO-MODEL", "singular mass"]);
+    }
+    // Rubin's coordinates, in which amplitudes of rigid-body motion stand beside the interface.
+    let place = Place::with_brick();
+    place.reduce(&place.model_flags(), "--interface pin=1 --method rubin --modes 4").expect(ExitCode::Done);
+    assert_refused(reduce_rows(&place, WITH_NODES, "[1]"), &["E-NO-MODEL", "no dof map can say"]);
+    let place = Place::with_brick();
+    let rows = "--interface ends=rows:0,1,2,30,31,32,120,121,122,132,133,134 --method guyan";
+    place.reduce(&place.matrix_flags(), rows).expect(ExitCode::Done);
+    assert_refused(reduce_rows(&place, WITH_NODES, "[1]"), &["E-NO-MODEL", "rows without nodes"]);
+}
+
+#[test]
+fn a_superelement_without_a_second_job_says_why() {
+    let place = Place::with_brick();
+    for (flags, why) in [
+        ("--rigid-interface foot=1,11,31,41 --method guyan", "just holds it"),
+        ("--method rubin --modes 5", "no interface"),
+        // Three nodes in a plane give way across it.
+        ("--interface foot=1,11,31 --method herting --modes 4", "no stiffness but rounding at a dof"),
+    ] {
+        place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
+        assert_refused(supel(&["reduce", &place.text("x.supel")]), &["E-NO-MODEL", why, "docs/export.md"]);
+    }
+    place.write("x.supel", &place.bytes("x.supel")[..5000]);
+    assert_refused(supel(&["reduce", &place.text("x.supel")]), &["E-SUPERELEMENT"]);
+    assert_refused(supel(&["plan", &place.text("x.supel")]), &["E-SUPERELEMENT"]);
+    export(&place, "matrix-market", &[]).expect(ExitCode::InputData);
+}
+
+/// Loads come by their column, with as many rows as the superelement has.
+#[test]
+fn loads_are_columns_of_the_superelement() {
+    let place = Place::with_brick();
+    let load = |name: &str, node: u32| {
+        format!("[[load]]\nname = \"{name}\"\nnodes = [{node}]\nforce = [0.0, 1.0, 0.0]\nresidual = false\n")
+    };
+    let job = format!(
+        "reduction = {{ method = \"herting\", modes = {{ count = 4 }} }}\nwrite = {{ superelement = \"x.supel\" }}\n\
+         [model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n\
+         [[interface]]\nname = \"foot\"\nnodes = [1, 3, 15, 31]\n{}{}",
+        load("first", 25),
+        load("second", 45)
+    );
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    let second = |column: usize| {
+        let load = format!(
+            "{WITH_NODES}\n[[load]]\nname = \"the other\"\nfile = \"x.supel\"\ncolumn = {column}\nresidual = false"
+        );
+        reduce_rows(&place, &load, "\"group:foot\"")
+    };
+    second(1).expect(ExitCode::Done);
+    let vectors = |name: &str| place.superelement(name).tensors().load_vectors.clone().expect("load vectors");
+    let (given, found) = (vectors("x.supel"), vectors("second.supel"));
+    // The same interface comes first in both: what a load does to it by Ψᵀf is that of the larger model, to rounding of twelve rows.
+    let largest = (0..12).map(|row| given[(row, 1)].abs()).fold(0.0, f64::max);
+    for row in 0..12 {
+        let off = (found[(row, 0)] - given[(row, 1)]).abs() / largest;
+        assert!(off < 1e-9, "row {row}: {off:e}");
+        assert!((given[(row, 0)] - given[(row, 1)]).abs() <= largest * 2.0);
+    }
+    assert_refused(second(2), &["E-LOAD-COLUMN"]);
+}
