@@ -466,6 +466,21 @@ pub enum Error {
         /// What to do.
         remedy: &'static str,
     },
+    /// Parts of a model come from several superelements, or from one that is not the stiffness.
+    #[entry("E-OTHER-SUPERELEMENT", InputData, "give one superelement for all that superelements are to say")]
+    #[error(
+        "{}: a superelement for {what} of a job whose stiffness is {}, another file – expected the same one, because rows of modal \
+        amplitudes mean something else in every superelement – give the file of the stiffness",
+        path.display(), stiffness.display()
+    )]
+    OtherSuperelement {
+        /// The file.
+        path: PathBuf,
+        /// What it is read for.
+        what: &'static str,
+        /// The file of K.
+        stiffness: PathBuf,
+    },
     /// K and M are one matrix.
     #[entry("E-SAME-MATRIX", InputData, "give the file of the other one")]
     #[error(

@@ -22,7 +22,7 @@ use crate::dense::{self, unpacked};
 use crate::error::{Error, Result};
 use crate::job::ReductionJob;
 use crate::modes::Retained;
-use crate::plan::{Mass, Plan};
+use crate::plan::Plan;
 use crate::reduction::Reduction;
 use crate::rigid::InterfaceRank;
 
@@ -141,9 +141,9 @@ pub struct Rubin {
 /// without: the answers of the free component to loads stand in the place of constraint modes.
 ///
 /// # Errors
-/// Any error of the rank for another method, and where the scene does not ask for a mass: without one there is no inertia that balances a load.
+/// Any error of the rank for another method.
 pub fn rank_or_attachment(rank: Result<InterfaceRank>, plan: &Plan) -> Result<Option<InterfaceRank>> {
-    let has_attachment_modes = plan.job().reduction.method.has_attachment_modes() && plan.mass() == Mass::Reduced;
+    let has_attachment_modes = plan.job().reduction.method.has_attachment_modes();
     match rank {
         Err(Error::InterfaceRank { .. }) if has_attachment_modes => Ok(None),
         rank => rank.map(Some),

@@ -1,7 +1,7 @@
 //! A superelement of an assembly, under the name it has there.
 
 use faer::{Mat, MatRef};
-use supel_runtime::{Coordinate, Flag, Superelement};
+use supel_runtime::{Coordinate, Flag, Superelement, Verdict};
 
 use super::omitted::{Omitted, omitted};
 use super::spectrum::Pencil;
@@ -11,7 +11,8 @@ use crate::error::{Error, Result};
 
 /// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
 const LARGEST_RIGID_ENERGY: f64 = 0.1;
-/// Energy of rigid-body motion in units of what double precision leaves from which on it is taken out: doing so costs some of these units.
+/// Energy of rigid-body motion is taken out where it is so many times what double precision leaves. The products that do so add some units
+/// of that themselves.
 const BEYOND_DOUBLE: f64 = 100.0;
 
 /// A superelement with its name and its matrices.
@@ -30,7 +31,7 @@ pub struct Component {
     /// Û, r × n_r.
     pub(super) rigid: Mat<f64>,
     /// What is not known of an energy xᵀK̂x is xᵀDx, D r × r: of rigid-body motion what rounding leaves, of motion beyond it as
-    /// much as in the file and the error bar of the first mode.
+    /// much as in the file, the error bar of the first mode, and of its energy the largest bar of a mode relative to that.
     pub(super) doubt: Mat<f64>,
 }
 
@@ -68,12 +69,15 @@ impl Component {
         let omitted = omitted(&superelement, stiffness.as_ref(), mass.as_ref(), rigid.as_ref())?;
         let momenta = dense::product(mass.as_ref(), motions.as_ref());
         let of_double = rounding_of_double(stiffness.as_ref(), motions.as_ref());
-        let (stiffness, left) = match rounding > BEYOND_DOUBLE * of_double {
+        // A file that failed its checks may have energy there that is none of rounding.
+        let is_checked = superelement.metadata().verification.verdict != Verdict::Fail;
+        let (stiffness, left) = match is_checked && rounding > BEYOND_DOUBLE * of_double {
             true => (without_rigid_energy(stiffness, (motions.as_ref(), momenta.as_ref())), of_double),
             false => (stiffness, rounding),
         };
         let doubts = (NOISE_FACTOR * left, NOISE_FACTOR * rounding + known_to(&superelement));
-        let doubt = doubt(mass.as_ref(), &momenta, doubts);
+        let mut doubt = doubt(mass.as_ref(), &momenta, doubts);
+        doubt += &stiffness * faer::Scale(largest_bar(&superelement));
         Ok(Self { name, superelement, omitted, stiffness, mass, rigid, doubt })
     }
 
@@ -166,6 +170,13 @@ fn known_to(superelement: &Superelement) -> f64 {
         let [lower, upper] = [hertz, hertz + bar.unwrap_or(hertz)].map(|hertz| (std::f64::consts::TAU * hertz).powi(2));
         upper - lower
     })
+}
+
+/// The largest error bar of an eigenvalue relative to it: of the energy of stiffer motion as much is not known.
+fn largest_bar(superelement: &Superelement) -> f64 {
+    let coordinates = superelement.metadata().coordinates.iter();
+    let bars = coordinates.filter_map(|coordinate| Some(coordinate.error_bar_hz()? / coordinate.mode()?.1));
+    bars.filter(|bar| bar.is_finite()).fold(0.0, |largest, bar| f64::max(largest, bar * (2.0 + bar)))
 }
 
 /// What energies are compared with: the eigenvalue of the first mode that the file states, or of the stiffest coordinate where it states

@@ -212,7 +212,7 @@ fn of_held_modes(
 }
 
 /// Why no shape of the reduced matrices counts as exact.
-const OTHER_FREQUENCIES: &str = "its matrices do not have the frequencies that it states; check it with `supel verify`";
+const OTHER_FREQUENCIES: &str = "its matrices have the frequencies that it states to fewer digits than bounds need";
 
 /// The elastic spectrum of reduced matrices, which begins with the frequencies that the file states; or why it is not to be used.
 fn stated_spectrum(

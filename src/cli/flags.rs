@@ -69,7 +69,7 @@ Exit codes: 0 done and verified; 1 done, a check failed; 2 usage; 3 input data; 
 
 #[derive(Debug, Args)]
 pub(super) struct ReduceFlags {
-    /// Job document, TOML or JSON; flags override its keys, interfaces and held dofs by name
+    /// Job document, TOML or JSON, or a superelement; flags override its keys, interfaces and held dofs by name
     pub(super) job: Option<PathBuf>,
     /// Reduce every job in a folder and below it, or the components of an assembly document, side by side; --threads and
     /// --memory-gib are those of all together
@@ -219,7 +219,7 @@ pub(super) struct RunFlags {
 // One field for each switch that can be typed.
 #[expect(clippy::struct_excessive_bools)]
 pub(super) struct PlanFlags {
-    /// Job document, TOML or JSON
+    /// Job document, TOML or JSON, or a superelement
     pub(super) job: PathBuf,
     /// Count the modes of a band even where that takes a long factorisation [otherwise their number is then a guess]
     #[arg(long)]

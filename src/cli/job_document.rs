@@ -17,7 +17,11 @@ pub(super) fn read(path: &Path) -> Result<(Job, Option<String>)> {
         return Job::read_and_remark(path);
     }
     let (superelement, _) = superelement_file::read(path)?;
-    let job = Job::parse(&job_of(&superelement, path)?, path)?;
+    let (text, left_behind) = job_of(&superelement, path)?;
+    // Whatever the superelement is called, its job is TOML.
+    let job = Job::parse(&text, &path.with_extension("toml"))?;
     job.validate()?;
-    job.located(path, Holder::Document)
+    let (job, remark) = job.located(path, Holder::Document)?;
+    let remarks: Vec<String> = left_behind.into_iter().chain(remark).collect();
+    Ok((job, (!remarks.is_empty()).then(|| remarks.join("\n"))))
 }

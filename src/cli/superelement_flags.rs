@@ -130,7 +130,7 @@ pub(super) struct ExportFlags {
 pub(super) struct VerifyFlags {
     /// Superelement file
     pub(super) file: PathBuf,
-    /// Job document of the model: compare with its full matrices
+    /// Job document of the model, or the superelement that is the model: compare with its full matrices
     #[arg(long, value_name = "JOB")]
     pub(super) job: Option<PathBuf>,
     /// Run the job again, from --job or from the file itself, and compare bytes

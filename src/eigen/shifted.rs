@@ -36,7 +36,7 @@ const FIRST_SHIFT: f64 = 1e-6;
 const ROUNDINGS_OF_DATA: f64 = 10.0;
 /// Shifts tried before one is taken as it is.
 const MAX_ROUNDS: usize = 4;
-/// How much farther from zero a shift is tried where K − σM is not definite, and how often: up to the median of K_ii / M_ii.
+/// How much farther from zero a shift is tried where K − σM is not definite, and how often; not beyond the median of K_ii / M_ii.
 const RETREAT: f64 = 10.0;
 const MAX_RETREATS: usize = 6;
 /// −σ may lie between these multiples of the first elastic eigenvalue.
@@ -55,6 +55,7 @@ pub fn shifted<'a>(
     name: &dyn Fn(usize) -> String,
 ) -> Result<Shifted<'a>> {
     let mut sigma = first_shift(problem);
+    let farthest = median_ratio(problem);
     let mut count = LOOK_AT;
     let rounding = problem.precision.stiffness;
     let may_retreat = !rounding.is_coarse() || rounding.is_beyond_entries();
@@ -62,7 +63,7 @@ pub fn shifted<'a>(
     loop {
         let factor = match Cholesky::new(analysis, problem.pencil(), sigma, name) {
             // Rounding of ties far above all else may be larger than a shift that suits the softest modes.
-            Err(Error::NotDefinite { .. }) if may_retreat && n_retreats < MAX_RETREATS => {
+            Err(Error::NotDefinite { .. }) if may_retreat && n_retreats < MAX_RETREATS && -sigma < farthest => {
                 (sigma, n_retreats) = (RETREAT * sigma, n_retreats + 1);
                 continue;
             }

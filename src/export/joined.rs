@@ -7,6 +7,7 @@ use supel_runtime::{Direction, Flag, Matrix, Superelement};
 use toml::Value;
 
 use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
+use super::left_behind::not_of_a_model;
 use super::model_job::{MOVING_ROWS, held_rotations, method, n_modes};
 use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members, Omitted};
 use crate::dense::unpacked;
@@ -54,17 +55,7 @@ pub(super) fn packed(a: &faer::Mat<f64>) -> Matrix {
 /// What a component has that the model of the whole has not.
 fn left_behind(component: &Component) -> Option<String> {
     let superelement = &component.superelement;
-    let tensors = superelement.tensors();
-    // A job that held dofs made loads of gravity that count the mass of these.
-    let is_held = tensors.gravity.is_some() && superelement.n_rigid() < 6;
-    let contents = [
-        ("damping", tensors.damping.is_some()),
-        ("loads of gravity on the mass of held dofs", is_held),
-        ("recovery", tensors.recovery.is_some()),
-        ("quantities", tensors.quantities.is_some()),
-        ("further matrices", !tensors.matrices.is_empty()),
-    ];
-    let names: Vec<&str> = contents.into_iter().filter(|(_, is_there)| *is_there).map(|(name, _)| name).collect();
+    let names = not_of_a_model(superelement);
     (!names.is_empty())
         .then(|| format!("{} has {}, which the model of the whole does not have", component.name, names.join(", ")))
 }

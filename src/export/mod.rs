@@ -6,6 +6,7 @@
 mod format;
 mod job_text;
 mod joined;
+mod left_behind;
 mod load_transformation;
 mod matrix_market;
 mod model_job;

@@ -7,23 +7,29 @@ use std::path::Path;
 use supel_runtime::{Coordinate, Flag, InterfaceNode, Metadata, Method, Superelement};
 
 use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
+use super::left_behind::not_of_a_model;
 use super::names::Names;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
 use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
+use crate::report::printable;
 
-/// The job that reduces the superelement in the file `path` as it is: its matrices, its nodes and its loads are read of that file.
+/// The job that reduces the superelement in the file `path` as it is, TOML: its matrices, its nodes and its loads are read of that file. With
+/// it what the job leaves behind, in words, where it does.
 ///
 /// # Errors
 /// [`Error::NoModel`]; [`Error::NameNotText`]; [`Error::DenseEigen`].
-pub fn job_of(superelement: &Superelement, path: &Path) -> Result<String> {
+pub fn job_of(superelement: &Superelement, path: &Path) -> Result<(String, Option<String>)> {
     let file = path.file_name().and_then(OsStr::to_str);
     let file = file.ok_or_else(|| Error::NameNotText { key: "JOB", path: path.to_owned() })?;
-    let names = Names::starting_with(&path.with_extension(""));
+    let is_superelement = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("supel"));
+    let names = Names::starting_with(&if is_superelement { path.with_extension("") } else { path.to_owned() });
     let remedy = "see docs/export.md, \"Reducing again\"";
     let job = job(superelement)?.map_err(|found| Error::NoModel { path: path.to_owned(), found, remedy })?;
-    Ok(job.render(&ModelFiles::of_superelement(file, &names)))
+    let left = not_of_a_model(superelement).join(", ");
+    let words = format!("supel: {}: its own job does not carry on {left}", printable(&path.display().to_string()));
+    Ok((job.render(&ModelFiles::of_superelement(file, &names)), (!left.is_empty()).then_some(words)))
 }
 
 /// The job, or why there is none.
@@ -34,7 +40,7 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
         None => digits_of(superelement)?,
     };
     if digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
-        return Ok(Err("has no stiffness but rounding"));
+        return Ok(Err("lets rigid-body motion pass to fewer than four digits of its stiffness"));
     }
     let (method, relief) = method(superelement);
     let moves = superelement.has_rigid_amplitudes();
@@ -67,7 +73,7 @@ fn no_job(superelement: &Superelement) -> Option<&'static str> {
         ),
         (is_marked(&Flag::SingularMass), "has the singular mass of MacNeal's method, which is that of no model"),
         (is_marked(&Flag::Preloaded), "is preloaded, and its internal forces are not in its file"),
-        (has_free_dof(&superelement.tensors().stiffness), NO_STIFFNESS),
+        (has_free_dof(superelement), NO_STIFFNESS),
     ];
     reasons.into_iter().find_map(|(is_so, why)| is_so.then_some(why))
 }

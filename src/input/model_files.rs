@@ -16,6 +16,7 @@ use super::member::split_member;
 use super::modes_file::{ModeColumns, mode_columns};
 use super::patch::Patches;
 use super::quantity_files::{QuantityRows, quantity_rows};
+use super::superelement_file::refuse_other;
 use super::{Cells, InputNote, MatrixInput, MatrixRole, empty_rows, formats, unit_mass};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result};
@@ -98,7 +99,21 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let number = |row: u32| rows.find(row as usize).unwrap_or_default() as u32;
     let constraints = constraints.map(|constraints| constraints.renumbered(number));
     let internal_forces = forces.map(|forces| on_rows(forces, &rows, stiffness.matrix.rows())).transpose()?;
+    refuse_other_superelements(model, (&stiffness, &mass), &digests)?;
     Ok(Input { stiffness, mass, dofs, labels, nodes, rows, constraints, internal_forces, digests, notes })
+}
+
+fn refuse_other_superelements(
+    model: &ModelJob,
+    (stiffness, mass): (&MatrixInput, &MatrixInput),
+    digests: &Digests,
+) -> Result<()> {
+    let of_mass = model.mass.as_deref().map(|path| ("the mass", path, mass.digest.as_str()));
+    let digest = |role: &str| digests.get(role).map_or("", String::as_str);
+    let of_dofs = model.dofs.as_deref().map(|path| ("the dof map", path, digest("dofs")));
+    let of_nodes = model.nodes.as_deref().map(|path| ("the nodes", path, digest("nodes")));
+    let mut parts = [of_mass, of_dofs, of_nodes].into_iter().flatten();
+    parts.try_for_each(|(what, path, digest)| refuse_other(stiffness, what, (path, digest)))
 }
 
 /// The columns of the files of loads, one for each load that has a file.
@@ -109,7 +124,9 @@ pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadC
     let n_rows = input.n_file_rows();
     let of_load = |load: &LoadJob| match load.pattern()? {
         LoadPattern::File(path, column) => {
-            load_column(WantedColumn { path, load: &load.name, column, n_rows }).map(Some)
+            let read = load_column(WantedColumn { path, load: &load.name, column, n_rows })?;
+            refuse_other(&input.stiffness, "a load", (path, &read.digest))?;
+            Ok(Some(read))
         }
         LoadPattern::Force(..) | LoadPattern::Pressure(..) | LoadPattern::Rotation(_) => Ok(None),
     };
@@ -134,7 +151,7 @@ pub fn expansion_columns(
 /// The errors of the readers of matrices; [`Error::MatrixKind`]; [`Error::MatrixRows`]; [`Error::Duplicates`] where the job refuses
 /// them.
 pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Result<Vec<FurtherMatrix>> {
-    let n_rows = input.n_file_rows();
+    let (n_rows, stiffness) = (input.n_file_rows(), &input.stiffness);
     let read = |matrix: &MatrixJob| {
         let read = input.labels.placed(read_matrix(&further_source(matrix, allowance))?)?;
         let (input, _) = take_notes(read, &mut Vec::new());
@@ -143,6 +160,7 @@ pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Resu
         if n != n_rows {
             return Err(Error::MatrixRows { path: input.path, matrix: matrix.name.clone(), found: n, n: n_rows });
         }
+        refuse_other(stiffness, "a further matrix", (&input.path, &input.digest))?;
         FurtherMatrix::checked(matrix, input)
     };
     job.matrices.iter().map(read).collect()

@@ -18,6 +18,7 @@ use super::format::{
     DirectionBase, DofMapFormat, Format, MatrixFormat, MatrixSource, NodeFormat, ReadDofs, ReadMatrix, ReadNodes,
     Sureness,
 };
+use super::member::split_member;
 use super::named::chosen;
 use super::{MatrixInput, MatrixRole};
 use crate::dense;
@@ -42,6 +43,20 @@ pub fn is_superelement(path: &Path) -> Result<bool> {
     Ok(begins(&FileStart::of(path)?))
 }
 
+/// Refuses a superelement, with its BLAKE3, that is read for `what` and is not the one that the stiffness is read of.
+///
+/// # Errors
+/// [`Error::OtherSuperelement`]; [`Error::Changed`] where the file was written between two readings; a file that cannot be read.
+pub(super) fn refuse_other(stiffness: &MatrixInput, what: &'static str, (path, digest): (&Path, &str)) -> Result<()> {
+    if digest == stiffness.digest || !is_superelement(&split_member(path).0)? || !is_superelement(&stiffness.path)? {
+        return Ok(());
+    }
+    if split_member(path).0 == stiffness.path {
+        return Err(Error::Changed { path: stiffness.path.clone() });
+    }
+    Err(Error::OtherSuperelement { path: path.to_owned(), what, stiffness: stiffness.path.clone() })
+}
+
 /// Whether a file that begins so is a superelement.
 pub(super) fn begins(start: &FileStart<'_>) -> bool {
     start.packing.is_none() && supel_runtime::begins_as_superelement(&start.head)
@@ -59,16 +74,17 @@ impl MatrixFormat for SuperelementFile {
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
         let path = source.file.as_path();
         let (superelement, digest) = opened(path, source.allowance)?;
-        let named = matrices(&superelement);
-        let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
-        let (name, matrix) = named[chosen(path, &names, source.member.as_deref(), source.role)?];
+        let (name, matrix) = wanted(&superelement, source)?;
         if name == MASS
             && superelement.metadata().flags.contains(&Flag::SingularMass)
             && source.role == MatrixRole::Mass
         {
             return Err(no_model(path, "has the singular mass of MacNeal's method", SINGULAR_MASS));
         }
-        if name == STIFFNESS && source.role == MatrixRole::Stiffness && has_free_dof(matrix) {
+        if matches!((name, source.role), (STIFFNESS, MatrixRole::Mass) | (MASS, MatrixRole::Stiffness)) {
+            return Err(no_model(path, "has the other matrix of the two under this name", "exchange the two names"));
+        }
+        if name == STIFFNESS && source.role == MatrixRole::Stiffness && has_free_dof(&superelement) {
             return Err(no_model(path, NO_STIFFNESS, FREE_DOF));
         }
         let mut input =
@@ -146,9 +162,23 @@ const MASS: &str = "mass";
 /// What speaks against a superelement that moves in a direction of its interface without strain, as nodes in one plane do across it.
 pub(crate) const NO_STIFFNESS: &str = "has no stiffness but rounding at a dof of its interface";
 
-/// Whether a diagonal is negative, which in a verified K̂ is rounding of none.
-pub(crate) fn has_free_dof(stiffness: &Matrix) -> bool {
-    (0..stiffness.rows()).any(|row| stiffness[(row, row)] < 0.0)
+/// Whether a dof of the interface has a stiffness that is nothing next to the largest of its kind, translations or rotations. In a K̂ that is
+/// condensed from larger numbers rounding is as much, of either sign.
+pub(crate) fn has_free_dof(superelement: &Superelement) -> bool {
+    /// Bending of a beam of 1:1000 has 10⁻⁶ of its axial stiffness.
+    const NOTHING: f64 = 1e-10;
+    let stiffness = &superelement.tensors().stiffness;
+    let turns = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { direction, .. } => Some(direction.is_rotation()),
+        Coordinate::InterfaceRow { .. } => Some(false),
+        _ => None,
+    };
+    let kinds: Vec<Option<bool>> = superelement.metadata().coordinates.iter().map(turns).collect();
+    [false, true].into_iter().any(|kind| {
+        let rows = || (0..kinds.len()).filter(|row| kinds[*row] == Some(kind)).map(|row| stiffness[(row, row)]);
+        let largest = rows().fold(0.0, f64::max);
+        rows().any(|value| value < NOTHING * largest)
+    })
 }
 
 /// What to do instead.
@@ -163,9 +193,13 @@ fn no_model(path: &Path, found: &'static str, remedy: &'static str) -> Error {
 /// The superelement in a file and the digest of its bytes.
 fn opened(path: &Path, allowance: &Allowance) -> Result<(Superelement, String)> {
     let failed = |error| Error::of_superelement(path, error);
+    let size = std::fs::metadata(path).map_err(|source| Error::Read { path: path.to_owned(), source })?.len();
+    let claim = allowance.claim(path);
+    // The bytes and the numbers made of them, until what is wanted of them is taken.
+    claim.set(size.saturating_mul(2))?;
     let bytes = supel_runtime::file_bytes(path).map_err(failed)?;
-    allowance.claim(path).set(bytes.len() as u64)?;
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    claim.set(0)?;
     if superelement.metadata().verification.verdict == Verdict::Fail {
         let remedy = "see `supel inspect`, or go on with what `supel export --allow-unverified` writes";
         return Err(no_model(path, "failed a check when it was made", remedy));
@@ -175,6 +209,22 @@ fn opened(path: &Path, allowance: &Allowance) -> Result<(Superelement, String)> 
         return Err(no_model(path, "is preloaded, and its internal forces are not in its file", remedy));
     }
     Ok((superelement, blake3::hash(&bytes).to_hex().to_string()))
+}
+
+/// The matrix that is wanted: K̂ or M̂ by its role or its name, which a further matrix may have too.
+fn wanted<'a>(superelement: &'a Superelement, source: &MatrixSource<'_>) -> Result<(&'a str, &'a Matrix)> {
+    let named = matrices(superelement);
+    let member = source.member.as_deref().or(match source.role {
+        MatrixRole::Stiffness => Some(STIFFNESS),
+        MatrixRole::Mass => Some(MASS),
+        MatrixRole::Further | MatrixRole::Conversion | MatrixRole::Reduced => None,
+    });
+    // The first of a name is the one that every superelement has.
+    if let Some(found) = named.iter().find(|(name, _)| Some(*name) == member) {
+        return Ok(*found);
+    }
+    let names: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
+    Ok(named[chosen(&source.file, &names, member, source.role)?])
 }
 
 /// Its matrices with their names; no mass where the job asked for none.

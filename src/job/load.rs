@@ -37,7 +37,7 @@ pub struct LoadJob {
     #[schemars(range(min = -ranges::LARGEST, max = ranges::LARGEST), extend("not" = { "const": 0 }))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<f64>,
-    /// Matrix Market file with a force for every row of the matrices.
+    /// Matrix Market file with a force for every row of the matrices, or the superelement that the matrices are of.
     #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-role" = "place-of-one"))]

@@ -62,9 +62,9 @@ impl<'a> BoundaryProblem<'a> {
         };
         if let (Some(rigid), Some(free)) = (&rigid.passing, partition.free_under(self.boundary)) {
             let statics = FreeStatics::of(factor, problem.stiffness, (free, partition.n_interface()));
-            return self.with_operator_at_zero((statics.operator(rigid)?, rigid), solve);
+            return self.with_operator_at_zero((statics.operator(rigid), rigid), solve);
         }
-        self.with_operator_at_zero((FreeAtZero::new(factor, &partition.stiffness, constraint, rigid)?, rigid), solve)
+        self.with_operator_at_zero((FreeAtZero::new(factor, &partition.stiffness, constraint, rigid), rigid), solve)
     }
 
     /// Hands an operator to `solve` whose matrix is definite: K where the component is held, otherwise K − σM with σ below the spectrum.
@@ -83,9 +83,16 @@ impl<'a> BoundaryProblem<'a> {
     /// Hands an operator at zero to `solve` where it holds up, and one below zero where it does not.
     fn with_operator_at_zero<T>(
         &self,
-        (operator, rigid): (FreeAtZero<'_>, &RigidBodyModes),
+        (operator, rigid): (Result<FreeAtZero<'_>>, &RigidBodyModes),
         solve: impl FnOnce(&dyn ShiftInvert) -> Result<T>,
     ) -> Result<(T, usize)> {
+        let operator = match operator {
+            // Few digits leave S no more definite than a mechanism does.
+            Err(Error::Mechanism { .. }) if self.component.partition.has_few_digits() => {
+                return self.with_operator_below(solve);
+            }
+            operator => operator?,
+        };
         let residual = relative_residual(self.modal(), &operator);
         if residual <= MAX_RESIDUAL_OF_CLAMPED_FACTOR {
             // K of few digits makes forces of rigid-body motion, and so do roundings of penalties that tie dofs: modes of the operator

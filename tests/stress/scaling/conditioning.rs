@@ -6,6 +6,7 @@ use supel::error::Error;
 use supel::outcome::Outcome;
 use supel::verification::check::Verdict;
 use supel_models::model::Assembler;
+use supel_models::transform::rounded;
 use supel_models::{Material, Model, brick, spectrum};
 use supel_testing::cases::{solid, tied};
 
@@ -173,6 +174,19 @@ fn c_07_tied_interface_nodes_by_the_program() {
         let is_named = warnings(&outcome).contains(&"W-PENALTY");
         assert_eq!(is_named, contrast >= 1e8, "{contrast:e}: {:?}", warnings(&outcome));
         case.verified();
+    }
+}
+
+/// Digits that do not tell bending from nothing are the reason of what is refused, and never a mechanism.
+#[test]
+fn few_digits_of_a_slender_beam_are_no_mechanism() {
+    let beam = brick([8, 1, 1], [1.0, 1e-3, 1e-3], &Material::STEEL_SI);
+    for (digits, method) in (7..=12).flat_map(|digits| ["herting", "craig-bampton"].map(|method| (digits, method))) {
+        let model = rounded(&beam, digits);
+        match Case::new(&model, &[direct("ends", &[1, 10, 19, 28, 9, 18, 27, 36])]).method(method).run() {
+            Ok(_) | Err(Error::DigitsTooFew { .. }) => {}
+            Err(error) => panic!("{digits} digits, {method}: {error}"),
+        }
     }
 }
 
