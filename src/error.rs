@@ -466,7 +466,7 @@ pub enum Error {
         /// What to do.
         remedy: &'static str,
     },
-    /// Parts of a model come from several superelements, or from one that is not the stiffness.
+    /// Parts of a model come from several superelements.
     #[entry("E-OTHER-SUPERELEMENT", InputData, "give one superelement for all that superelements are to say")]
     #[error(
         "{}: a superelement for {what} of a job whose stiffness is {}, another file – expected the same one, because rows of modal \

@@ -8,6 +8,7 @@ use super::spectrum::Pencil;
 use crate::audit::negative_mass;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::error::{Error, Result};
+use crate::sparse::energies_of_terms;
 
 /// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
 const LARGEST_RIGID_ENERGY: f64 = 0.1;
@@ -148,9 +149,8 @@ fn without_rigid_energy(stiffness: Mat<f64>, (motions, momenta): (MatRef<'_, f64
 
 /// What rounding to double precision of the terms alone leaves of the energy of rigid-body motion, ε |r|ᵀ|K̂||r|.
 fn rounding_of_double(stiffness: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> f64 {
-    let sizes = dense::absolute(motions);
-    let terms = dense::product(dense::absolute(stiffness).as_ref(), sizes.as_ref());
-    dense::dots(sizes.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max) * f64::EPSILON
+    let terms = dense::product(dense::absolute(stiffness).as_ref(), dense::absolute(motions).as_ref());
+    energies_of_terms(motions, terms.as_ref()).into_iter().fold(0.0, f64::max) * f64::EPSILON
 }
 
 /// α M̂R(M̂R)ᵀ + β (M̂ − M̂R(M̂R)ᵀ), R rigid-body motions with RᵀM̂R = 1: what rounding leaves of the energies of these, and what it and the error

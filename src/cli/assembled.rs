@@ -4,9 +4,9 @@ use supel_runtime::{Superelement, Verdict};
 
 use super::assembly_command::AssemblyCommand;
 use super::memory;
-use super::superelement_file;
 use crate::assembly::{self, Assembly, Component};
 use crate::error::{Error, Result};
+use crate::input;
 use crate::memory_forecast::Resources;
 
 /// The files of an assembly, before anything is joined.
@@ -23,7 +23,7 @@ impl Files {
     pub(super) fn read(command: &AssemblyCommand) -> Result<Self> {
         let (mut read, mut digests) = (Vec::new(), Vec::new());
         for (name, path) in &command.components {
-            let (superelement, _) = superelement_file::read(path)?;
+            let (superelement, _) = input::superelement(path)?;
             let bytes = superelement.to_bytes().map_err(|error| Error::of_superelement(path, error))?;
             digests.push(bytes.digest);
             read.push((name.clone(), superelement));

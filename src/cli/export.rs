@@ -13,11 +13,11 @@ use super::exit_code::ExitCode;
 use super::export_command::{ExportAnswer, ExportCommand, Source};
 use super::outputs::{Outputs, abandoned};
 use super::overwriting::{Named, OwnFiles};
-use super::superelement_file;
 use super::unverified::refusal;
 use crate::assembly::Assembly;
 use crate::error::{Error, Result};
 use crate::export::{ExportedFile, Joined, Names};
+use crate::input;
 use crate::number;
 use crate::regular_file::digest;
 use crate::report::{printable, value_text};
@@ -61,7 +61,7 @@ struct Made {
 }
 
 fn of_file(command: &ExportCommand, path: &Path) -> Result<Made> {
-    let (superelement, _) = superelement_file::read(path)?;
+    let (superelement, _) = input::superelement(path)?;
     let metadata = superelement.metadata();
     let verdict = metadata.verification.verdict;
     let is_refused = command.unverified.refuses(verdict);

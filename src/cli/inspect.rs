@@ -9,15 +9,15 @@ use supel_runtime::{Coordinate, FORMAT_VERSION, Superelement};
 use super::answer::Terminal;
 use super::command::{InspectAnswer, InspectCommand};
 use super::exit_code::ExitCode;
-use super::superelement_file;
 use super::verify::job_of_file;
 use crate::error::{Error, Result, json_value};
+use crate::input;
 use crate::recovery::coordinate_names;
 use crate::report::{inspection, value_text};
 use crate::rubin::Rubin;
 
 pub(super) fn run(command: &InspectCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let (superelement, bytes) = superelement_file::read(&command.file)?;
+    let (superelement, bytes) = input::superelement(&command.file)?;
     let file_bytes = bytes.len();
     drop(bytes);
     let text = match command.answer {

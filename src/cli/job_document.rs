@@ -2,21 +2,20 @@
 
 use std::path::Path;
 
-use super::superelement_file;
 use crate::error::Result;
 use crate::export::job_of;
-use crate::input::is_superelement;
+use crate::input;
 use crate::job::{Holder, Job};
 
 /// The job, checked, its paths made absolute, and what is to be said of the folder from which they count.
 ///
 /// # Errors
-/// Those of [`Job::read_and_remark`]; of a superelement those of [`job_of`].
+/// The errors of [`Job::read_and_remark`], and for a superelement the errors of [`job_of`].
 pub(super) fn read(path: &Path) -> Result<(Job, Option<String>)> {
-    if !is_superelement(path)? {
+    if !input::is_superelement(path)? {
         return Job::read_and_remark(path);
     }
-    let (superelement, _) = superelement_file::read(path)?;
+    let (superelement, _) = input::superelement(path)?;
     let (text, left_behind) = job_of(&superelement, path)?;
     // Whatever the superelement is called, its job is TOML.
     let job = Job::parse(&text, &path.with_extension("toml"))?;

@@ -61,7 +61,6 @@ mod selection_flags;
 mod signals;
 mod subject_command;
 mod subject_flags;
-mod superelement_file;
 mod superelement_flags;
 mod text_flags;
 mod threads;

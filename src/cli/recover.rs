@@ -9,9 +9,9 @@ use super::exit_code::ExitCode;
 use super::outputs::{Outputs, abandoned, writer};
 use super::overwriting::{Named, OwnFiles};
 use super::recover_command::RecoverCommand;
-use super::superelement_file;
 use super::unverified::refusal;
 use crate::error::{Error, Result};
+use crate::input;
 use crate::number;
 use crate::recovery::{
     Displacements, InterfaceLoads, MotionSeries, Order, Quantities, Sheet, SheetOutput, States, coordinate_names, fill,
@@ -19,7 +19,7 @@ use crate::recovery::{
 use crate::report::printable;
 
 pub(super) fn run(command: &RecoverCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let (superelement, _) = superelement_file::read(&command.file)?;
+    let (superelement, _) = input::superelement(&command.file)?;
     let verdict = superelement.metadata().verification.verdict;
     if command.unverified.refuses(verdict) {
         terminal.complain(&refusal(&command.file, "nothing recovered", "use"));

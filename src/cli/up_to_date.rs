@@ -7,8 +7,8 @@ use std::path::Path;
 
 use supel_runtime::{Generator, Superelement, Verdict};
 
+use super::accompanying;
 use super::judging::Strictness;
-use super::{accompanying, superelement_file};
 use crate::audit;
 use crate::error::Result;
 use crate::input;
@@ -53,7 +53,7 @@ pub(super) enum Stale {
 /// What a job asks for, where all of it is there and unchanged.
 pub(super) fn made_earlier(job: &Job, strictness: Strictness) -> Result<MadeEarlier, Stale> {
     let path = job.write.superelement.as_path();
-    let (superelement, bytes) = superelement_file::read(path).map_err(|_| Stale::NotMade)?;
+    let (superelement, bytes) = input::superelement(path).map_err(|_| Stale::NotMade)?;
     if !is_kept_job(job, &superelement).unwrap_or(false) {
         return Err(Stale::NotMade);
     }

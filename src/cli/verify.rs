@@ -12,16 +12,17 @@ use super::pipeline::Pipeline;
 use super::progress::StageLine;
 use super::rehearsal::{self, Rehearsed};
 use super::unmet::unmet;
-use super::{accompanying, memory, process, superelement_file};
+use super::{accompanying, memory, process};
 use crate::audit::{self, Audit};
 use crate::error::{Error, Result};
+use crate::input;
 use crate::job::{Holder, Job};
 use crate::memory_forecast::Resources;
 use crate::report::{Against, Reproduction, VerificationReport};
 use crate::verification::check::Verdict;
 
 pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let (superelement, bytes) = superelement_file::read(&command.file)?;
+    let (superelement, bytes) = input::superelement(&command.file)?;
     let rerun = match command.rerun {
         Rerun::No => None,
         Rerun::Compared => Some(job_to_run(command, &superelement)?),

@@ -28,7 +28,7 @@ pub(super) struct JobText {
     pub(super) held: Option<Vec<String>>,
 }
 
-/// Names of the files of a model beside its job, and of what the job makes of it.
+/// Names of the files of a model next to its job, and of the superelement that the job makes of it.
 #[derive(Clone, Debug)]
 pub(super) struct ModelFiles {
     stiffness: String,
@@ -40,7 +40,7 @@ pub(super) struct ModelFiles {
 }
 
 impl ModelFiles {
-    /// Those of an export.
+    /// The files that an export writes.
     pub(super) fn exported(names: &Names) -> Self {
         Self {
             stiffness: names.name("stiffness.mtx"),
@@ -52,7 +52,7 @@ impl ModelFiles {
         }
     }
 
-    /// A superelement that is all of them, and what `names` begin with.
+    /// One superelement in the place of all of them.
     pub(super) fn of_superelement(file: &str, names: &Names) -> Self {
         let [stiffness, mass, dofs, nodes, loads] = std::array::from_fn(|_| file.to_owned());
         Self { stiffness, mass, dofs, nodes, loads, superelement: names.name("again.supel") }

@@ -1,7 +1,7 @@
 //! A superelement as a model: K̂, M̂ and further matrices, what each row is, where its interface nodes are, its load vectors.
 //!
 //! Modal amplitudes are scalar dofs, rows that no node has and no rigid-body motion moves, because Ψ carries rigid-body motion by the
-//! interface alone (24). Where rigid-body modes are coordinates beside an interface amplitudes do move, which no dof map can say. K̂ carries
+//! interface alone (24). Where rigid-body modes are coordinates next to an interface amplitudes do move, which no dof map can say. K̂ carries
 //! the rounding of the stiffness that it was condensed from, see [`super::condensed_digits`].
 
 use std::collections::HashMap;
@@ -25,6 +25,7 @@ use crate::dense;
 use crate::dofs::{Dof, Nodes};
 use crate::error::{Error, Result};
 use crate::job::Layout;
+use crate::regular_file;
 
 /// What supel itself writes.
 pub(super) struct SuperelementFile;
@@ -147,8 +148,10 @@ pub(super) struct LoadVectors {
     pub(super) digest: String,
 }
 
+/// The load vectors of the superelement in a file; no column where it has none.
+///
 /// # Errors
-/// Those of a superelement that cannot be read or is no model.
+/// A superelement that cannot be read or is no model.
 pub(super) fn load_vectors(path: &Path) -> Result<LoadVectors> {
     let (superelement, digest) = opened(path, &Allowance::of(None))?;
     let none = || Matrix::from_fn(superelement.n_coordinates(), 0, |_, _| 0.0);
@@ -190,15 +193,25 @@ fn no_model(path: &Path, found: &'static str, remedy: &'static str) -> Error {
     Error::NoModel { path: path.to_owned(), found, remedy }
 }
 
-/// The superelement in a file and the digest of its bytes.
-fn opened(path: &Path, allowance: &Allowance) -> Result<(Superelement, String)> {
+/// The superelement in a file, and the bytes of that.
+///
+/// # Errors
+/// A file that cannot be read, is none or holds none.
+pub fn superelement(path: &Path) -> Result<(Superelement, Vec<u8>)> {
     let failed = |error| Error::of_superelement(path, error);
+    regular_file::open(path).map(drop)?;
+    let bytes = supel_runtime::file_bytes(path).map_err(failed)?;
+    let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    Ok((superelement, bytes))
+}
+
+/// The superelement that is a model, and the digest of its bytes.
+fn opened(path: &Path, allowance: &Allowance) -> Result<(Superelement, String)> {
     let size = std::fs::metadata(path).map_err(|source| Error::Read { path: path.to_owned(), source })?.len();
     let claim = allowance.claim(path);
     // The bytes and the numbers made of them, until what is wanted of them is taken.
     claim.set(size.saturating_mul(2))?;
-    let bytes = supel_runtime::file_bytes(path).map_err(failed)?;
-    let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
+    let (superelement, bytes) = superelement(path)?;
     claim.set(0)?;
     if superelement.metadata().verification.verdict == Verdict::Fail {
         let remedy = "see `supel inspect`, or go on with what `supel export --allow-unverified` writes";
