@@ -36,7 +36,7 @@ pub(crate) fn prepared(
     observer.stage("read");
     let allowance = Allowance::of(resources.allowed(job));
     let mut read = input::read_within(&job.model, &allowance)?;
-    let columns = input::load_columns(&job.loads, &read)?;
+    let columns = input::load_columns(&job.loads, &read, &allowance)?;
     let modes = input::expansion_columns(&job.reduction, &read, &allowance)?;
     let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &allowance)?;
     let matrices = input::further_matrices(job, &read, &allowance)?;

@@ -116,9 +116,14 @@ fn weights_inside(partition: &Partition, modes: MatRef<'_, f64>) -> Vec<f64> {
 pub(super) fn left_inverse_by(partition: &Partition, inside: &[f64], u_b: MatRef<'_, f64>) -> Mat<f64> {
     let n_b = u_b.nrows();
     let outer = diagonal(&partition.stiffness).split_off(partition.n_internal);
-    let weight = |j: usize| {
-        let weight = (inside[j] + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).sqrt();
-        if weight > 0.0 { weight } else { 1.0 }
+    let own = |j: usize| (inside[j] + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).max(0.0).sqrt();
+    let length = |j: usize| (0..u_b.ncols()).map(|k| u_b[(j, k)].powi(2)).sum::<f64>().sqrt();
+    // A dof without stiffness has no error, and may be the only one of a motion: it counts as much as the least of the others.
+    let least = (0..n_b).map(|j| own(j) * length(j)).filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(1.0);
+    let weight = |j: usize| match (own(j), length(j)) {
+        (own, _) if own > 0.0 => own,
+        (_, length) if length > 0.0 => least / length,
+        _ => 1.0,
     };
     let weight: Vec<f64> = (0..n_b).map(weight).collect();
     let weighted = Mat::from_fn(n_b, u_b.ncols(), |i, j| weight[i] * u_b[(i, j)]);

@@ -44,7 +44,8 @@ const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 /// Modes looked at first; doubled while all of them are zero modes.
 const LOOK_AT: usize = 12;
 
-/// Factors K − σM of a modal problem with a shift suited to it.
+/// Factors K − σM of a modal problem with a shift suited to it. `n_free` motions are known to be free by other means: as many eigenvalues
+/// may be below zero by the roundings of few digits.
 ///
 /// # Errors
 /// K − σM is not definite, or its digits do not tell; an eigenvalue is negative beyond the noise of the data; the eigensolver
@@ -52,18 +53,29 @@ const LOOK_AT: usize = 12;
 pub fn shifted<'a>(
     analysis: &'a Analysis,
     problem: ModalProblem<'_>,
+    n_free: usize,
     name: &dyn Fn(usize) -> String,
 ) -> Result<Shifted<'a>> {
     let mut sigma = first_shift(problem);
     let farthest = median_ratio(problem);
     let mut count = LOOK_AT;
     let rounding = problem.precision.stiffness;
-    let may_retreat = !rounding.is_coarse() || rounding.is_beyond_entries();
+    // Of motions that are known to be free the digits need not tell that they are, and rounding of a heavy mass may exceed a shift by the
+    // diagonals of what carries it.
+    let are_known = n_free > 0 || problem.deflated[0].ncols() > 0;
+    let is_retreat = |error: &Error| match error {
+        Error::NotDefinite { .. } => !rounding.is_coarse() || rounding.is_beyond_entries() || are_known,
+        // What is below zero is looked at once there is a factor.
+        Error::IndefiniteStiffness { .. } => rounding.is_coarse() && are_known,
+        _ => false,
+    };
     let (mut round, mut n_retreats, mut n_wider) = (1, 0, 0);
+    let mut too_near = 0.0f64;
     loop {
         let factor = match Cholesky::new(analysis, problem.pencil(), sigma, name) {
-            // Rounding of ties far above all else may be larger than a shift that suits the softest modes.
-            Err(Error::NotDefinite { .. }) if may_retreat && n_retreats < MAX_RETREATS && -sigma < farthest => {
+            // Rounding of ties or masses far above all else may be larger than a shift that suits the softest modes.
+            Err(error) if is_retreat(&error) && n_retreats < MAX_RETREATS && -sigma < farthest => {
+                too_near = too_near.max(-sigma);
                 (sigma, n_retreats) = (RETREAT * sigma, n_retreats + 1);
                 continue;
             }
@@ -82,9 +94,12 @@ pub fn shifted<'a>(
             continue;
         }
         let suited = first_elastic.map(|lambda| lambda.max(least_shift(&lowest, n_zero)));
-        let settled = n_retreats > 0 || suited.is_none_or(|suited| WINDOW.contains(&(-sigma / suited)));
+        // Nearer than where K − σM was not definite there is nothing.
+        let settled = suited.is_none_or(|suited| WINDOW.contains(&(-sigma / suited)) || suited <= too_near);
         if settled || round == MAX_ROUNDS {
-            refuse_negative(analysis, problem, (&lowest, first_elastic))?;
+            if !rounding.is_coarse() || n_zero > n_free {
+                refuse_negative(analysis, problem, (&lowest, first_elastic))?;
+            }
             return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round + n_retreats + n_wider });
         }
         sigma = suited.map_or(sigma, |suited| -suited);
@@ -186,7 +201,7 @@ mod tests {
     fn with_lowest<T>(stiffness: &SparseMatrix, mass: &SparseMatrix, look: impl Fn(Result<Shifted<'_>>) -> T) -> T {
         let pencil = Pencil::new(stiffness, mass);
         let analysis = Analysis::new(pencil).expect("an analysis");
-        look(shifted(&analysis, ModalProblem::of(pencil, BINARY), &|dof| dof.to_string()))
+        look(shifted(&analysis, ModalProblem::of(pencil, BINARY), 0, &|dof| dof.to_string()))
     }
 
     #[test]

@@ -6,13 +6,16 @@
 use supel_runtime::{Direction, Flag, Matrix, Superelement};
 use toml::Value;
 
+use super::held_mechanism::is_held_and_gives_way;
 use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
-use super::model_job::{MOVING_ROWS, held_rotations, method, n_modes};
+use super::model_job::{HELD_ROWS, MOVING_ROWS, held_rotations, method, n_modes};
 use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members, Omitted};
 use crate::dense::unpacked;
 use crate::error::Result;
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
+use crate::input::strainless::{moved_alone, span};
+use crate::model::Site;
 use crate::number::quantity;
 
 /// An assembly that leaves as one model.
@@ -30,7 +33,8 @@ impl Joined {
     /// # Errors
     /// Those of [`Assembly::model`].
     pub fn new(assembly: &Assembly, kept: &[String]) -> Result<Self> {
-        let model = assembly.model(kept)?;
+        let mut model = assembly.model(kept)?;
+        clear_rounding(&mut model)?;
         let mut notes = assembly.notes.clone();
         notes.extend(assembly.joined_to_nothing().map(|name| format!("{name} is joined to nothing")));
         notes.extend(assembly.components.iter().filter_map(left_behind));
@@ -41,10 +45,31 @@ impl Joined {
                 notes.push(format!("there is no job that reduces it: {why}"));
                 None
             }
-            None => Some(job(assembly, &model, digits)),
+            None => Some(job(assembly, &model, digits)?),
         };
         Ok(Self { notes, model, job })
     }
+}
+
+/// Zeros where the stiffness holds nothing but rounding.
+fn clear_rounding(model: &mut JoinedModel) -> Result<()> {
+    let sites = sites(model);
+    let positions: Vec<[f64; 3]> = model.nodes.iter().map(|node| node.position).collect();
+    let length = span(&positions);
+    let turns = |site: &Option<Site>| site.is_some_and(|site| site.direction.is_rotation());
+    let lengths: Vec<f64> = sites.iter().map(|site| if turns(site) { length } else { 1.0 }).collect();
+    let alone = moved_alone(model.rigid.as_ref(), &lengths)?;
+    for row in alone {
+        model.stiffness.row_mut(row).fill(0.0);
+        model.stiffness.col_mut(row).fill(0.0);
+    }
+    Ok(())
+}
+
+/// Where the rows of nodes are.
+fn sites(model: &JoinedModel) -> Vec<Option<Site>> {
+    let site = |(node, direction): (usize, Direction)| Site { position: model.nodes[node].position, direction };
+    model.rows.iter().map(|row| row.at.map(site)).collect()
 }
 
 /// A matrix for a file.
@@ -93,7 +118,7 @@ fn without_job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) ->
     None
 }
 
-fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> JobText {
+fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<JobText> {
     let superelements = || assembly.components.iter().map(|component| &component.superelement);
     let mut held: Vec<String> = superelements().flat_map(held_rotations).collect();
     held.sort();
@@ -109,13 +134,20 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> JobText
     };
     let method = if modes.is_none() { "guyan" } else { method };
     let loads = model.load_names.iter();
-    let moves = superelements().any(Superelement::has_rigid_amplitudes);
+    let without_nodes = if superelements().any(Superelement::has_rigid_amplitudes) {
+        Some(MOVING_ROWS)
+    } else {
+        is_held_and_gives_way(&sites(model), model.rigid.as_ref())?.then_some(HELD_ROWS)
+    };
     let mut remarks = remarks(assembly, &band);
-    remarks.extend(moves.then(|| MOVING_ROWS.to_owned()));
-    let selection = |own: &JoinedSelection| if moves { selection_of_rows(own, model) } else { selection(own) };
-    JobText {
+    remarks.extend(without_nodes.map(str::to_owned));
+    let selection = |own: &JoinedSelection| match without_nodes {
+        Some(_) => selection_of_rows(own, model),
+        None => selection(own),
+    };
+    Ok(JobText {
         remarks,
-        map: if model.nodes.is_empty() || moves { Map::Rows } else { Map::Nodes },
+        map: if model.nodes.is_empty() || without_nodes.is_some() { Map::Rows } else { Map::Nodes },
         units: superelements().find_map(|superelement| superelement.metadata().units.clone()),
         held_rotations: held,
         digits,
@@ -126,7 +158,7 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> JobText
         modes: modes.filter(|_| method != "guyan"),
         relief,
         held: None,
-    }
+    })
 }
 
 /// Herting's method where all components are in its coordinates, Rubin's where an interface leaves rigid-body motion free, Guyan's where none has modes; modes with the interface held otherwise.

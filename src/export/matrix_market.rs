@@ -1,9 +1,9 @@
 //! Matrix Market: K̂ and M̂ with the dof map and the nodes, as `supel reduce` reads a model.
 //!
 //! Modal amplitudes are scalar dofs: rows of the dof map without a node, which no rigid-body motion moves, because Ψ carries
-//! rigid-body motion by the interface alone (24). Where rigid-body modes are coordinates beside an interface they do move, and the job
-//! has rows only. A superelement whose interface has no positions is one of bare rows and
-//! leaves without map and nodes. Numbers have seventeen digits, from which every double comes back to the bit.
+//! rigid-body motion by the interface alone (24). Where rigid-body modes are coordinates next to an interface they do move, and the job
+//! has rows only. A superelement whose interface has no positions is one of bare rows and leaves without map and nodes. Numbers have
+//! seventeen digits, from which every double comes back to the bit. Where K̂ holds nothing but rounding it leaves as zero.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -18,6 +18,7 @@ use super::model_job::job;
 use super::names::Names;
 use crate::assembly::JoinedNode;
 use crate::error::Result;
+use crate::input::strainless::condensed_stiffness;
 use crate::report::{field, printable};
 
 /// Matrix Market files, tables and a job.
@@ -38,9 +39,10 @@ impl Format for MatrixMarket {
         let nodes = &superelement.metadata().interface_nodes;
         let labels = superelement.metadata().interface_labels();
         let rows = rows(superelement, &labels);
-        let Tensors { stiffness, mass, damping, gravity, load_vectors, recovery, quantities, matrices, .. } =
+        let stiffness = condensed_stiffness(superelement)?;
+        let Tensors { mass, damping, gravity, load_vectors, recovery, quantities, matrices, .. } =
             superelement.tensors();
-        let mut files = vec![file("stiffness.mtx", "stiffness", symmetric(stiffness, &rows))];
+        let mut files = vec![file("stiffness.mtx", "stiffness", symmetric(&stiffness, &rows))];
         if mass.rows() > 0 {
             files.push(file("mass.mtx", "mass", symmetric(mass, &rows)));
         }

@@ -4,6 +4,7 @@
 //! anything; what the file records of its verification is for the caller to say.
 
 mod format;
+mod held_mechanism;
 mod job_text;
 mod joined;
 mod left_behind;

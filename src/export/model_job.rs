@@ -4,15 +4,18 @@ use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::path::Path;
 
-use supel_runtime::{Coordinate, Flag, InterfaceNode, Metadata, Method, Superelement};
+use supel_runtime::{Coordinate, Flag, InterfaceNode, Matrix, Metadata, Method, Superelement};
 
+use super::held_mechanism::is_held_and_gives_way;
 use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
 use super::names::Names;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
+use crate::input::strainless::condensed_stiffness;
 use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
+use crate::model::Site;
 use crate::report::printable;
 
 /// The job that reduces the superelement in the file `path` as it is, TOML: its matrices, its nodes and its loads are read of that file. With
@@ -35,22 +38,32 @@ pub fn job_of(superelement: &Superelement, path: &Path) -> Result<(String, Optio
 /// The job, or why there is none.
 pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<JobText, &'static str>> {
     let labels = superelement.metadata().interface_labels();
-    let digits = match no_job(superelement) {
+    let stiffness = condensed_stiffness(superelement)?;
+    let digits = match no_job(superelement, &stiffness) {
         Some(why) => return Ok(Err(why)),
-        None => digits_of(superelement)?,
+        None => digits_of(superelement, &stiffness)?,
     };
     if digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
         return Ok(Err("lets rigid-body motion pass to fewer than four digits of its stiffness"));
     }
-    let (method, relief) = method(superelement);
-    let moves = superelement.has_rigid_amplitudes();
+    let without_nodes = without_nodes(superelement)?;
+    let has_map = !labels.is_empty() && without_nodes.is_none();
+    let (method, relief) = match method(superelement) {
+        // Rows of one interface cannot be held in part.
+        ("mixed-interface", relief) if !has_map => ("craig-bampton", relief),
+        own => own,
+    };
     Ok(Ok(JobText {
-        remarks: if moves { vec![MOVING_ROWS.to_owned()] } else { Vec::new() },
-        map: if labels.is_empty() || moves { Map::Rows } else { Map::Nodes },
+        remarks: without_nodes.into_iter().map(str::to_owned).collect(),
+        map: if has_map { Map::Nodes } else { Map::Rows },
         units: superelement.metadata().units.clone(),
         held_rotations: held_rotations(superelement),
         digits,
-        interfaces: if moves { interfaces_of_rows(superelement) } else { interfaces(superelement, &labels) },
+        interfaces: if has_map || labels.is_empty() {
+            interfaces(superelement, &labels)
+        } else {
+            interfaces_of_rows(superelement)
+        },
         fixed: Vec::new(),
         loads: loads(superelement),
         method,
@@ -62,7 +75,7 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
 
 /// Why nothing reduces a superelement, whatever its numbers. An interface that just holds its component has no stiffness but rounding. A mass
 /// that is singular by its method is that of no model, and internal forces of a preloaded component are not in its file.
-fn no_job(superelement: &Superelement) -> Option<&'static str> {
+fn no_job(superelement: &Superelement, stiffness: &Matrix) -> Option<&'static str> {
     let is_marked = |flag: &Flag| superelement.metadata().flags.contains(flag);
     let reasons = [
         (is_marked(&Flag::StiffnessOnly), "has no mass"),
@@ -73,20 +86,40 @@ fn no_job(superelement: &Superelement) -> Option<&'static str> {
         ),
         (is_marked(&Flag::SingularMass), "has the singular mass of MacNeal's method, which is that of no model"),
         (is_marked(&Flag::Preloaded), "is preloaded, and its internal forces are not in its file"),
-        (has_free_dof(superelement), NO_STIFFNESS),
+        (has_free_dof(superelement, stiffness), NO_STIFFNESS),
     ];
     reasons.into_iter().find_map(|(is_so, why)| is_so.then_some(why))
 }
 
-fn digits_of(superelement: &Superelement) -> Result<Option<i64>> {
+fn digits_of(superelement: &Superelement, stiffness: &Matrix) -> Result<Option<i64>> {
     let tensors = superelement.tensors();
-    let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
     digits(k.as_ref(), m.as_ref(), u.as_ref())
 }
 
-/// Why a job does without map and nodes that stand next to it.
+/// Why a job does without the map and the nodes that there are.
+fn without_nodes(superelement: &Superelement) -> Result<Option<&'static str>> {
+    let metadata = superelement.metadata();
+    let site = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { node, direction } => {
+            Some(Site { position: metadata.interface_nodes[*node].position, direction: *direction })
+        }
+        _ => None,
+    };
+    if superelement.has_rigid_amplitudes() {
+        return Ok(Some(MOVING_ROWS));
+    }
+    let sites: Vec<Option<Site>> = metadata.coordinates.iter().map(site).collect();
+    let rigid = dense::unpacked(&superelement.tensors().rigid_body_modes);
+    Ok(is_held_and_gives_way(&sites, rigid.as_ref())?.then_some(HELD_ROWS))
+}
+
+/// What the job says where amplitudes move.
 pub(super) const MOVING_ROWS: &str =
     "Modal amplitudes move with rigid-body motion, which the positions of nodes cannot say: the job has rows only.";
+/// What the job says where supports hold a mechanism.
+pub(super) const HELD_ROWS: &str =
+    "Supports hold what the nodes say of rigid-body motion, and it moves otherwise: the job has rows only.";
 
 /// Rotations that supports hold alone, as the job of the superelement says.
 pub(super) fn held_rotations(superelement: &Superelement) -> Vec<String> {

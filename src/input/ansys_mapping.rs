@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::allowance::Allowance;
 use super::banner::excerpt;
 use super::dof_map::named;
 use super::file_start::FileStart;
@@ -36,7 +37,7 @@ impl Format for AnsysMapping {
 }
 
 impl DofMapFormat for AnsysMapping {
-    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs> {
+    fn read(&self, path: &Path, n: usize, _: &Allowance) -> Result<ReadDofs> {
         let mut lines = Lines::open(path)?;
         let mut rows: Vec<(u64, Option<Dof>)> = Vec::new();
         while lines.advance()? {

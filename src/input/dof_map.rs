@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
+use super::allowance::Allowance;
 use super::banner::excerpt;
 use super::file_start::FileStart;
 use super::format::{DirectionBase, DofMapFormat, Format, ReadDofs, Sureness};
@@ -28,7 +29,7 @@ impl Format for DofText {
 }
 
 impl DofMapFormat for DofText {
-    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs> {
+    fn read(&self, path: &Path, n: usize, _: &Allowance) -> Result<ReadDofs> {
         read(path, n)
     }
 }

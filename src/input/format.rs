@@ -139,8 +139,8 @@ pub(super) trait DofMapFormat: Format {
     /// made.
     ///
     /// # Errors
-    /// A file that cannot be read or whose content is wrong.
-    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs>;
+    /// A file that cannot be read or whose content is wrong, more data than `allowance` has room for.
+    fn read(&self, path: &Path, n: usize, allowance: &Allowance) -> Result<ReadDofs>;
 }
 
 /// A matrix as its format left it.

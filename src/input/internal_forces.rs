@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::allowance::Allowance;
 use super::load_file::{LoadColumn, WantedColumn, load_column};
 use crate::dofs::FileRows;
 use crate::error::{Error, Result};
@@ -11,11 +12,12 @@ use crate::job::ModelJob;
 pub(super) fn read_internal_forces(
     model: &ModelJob,
     n_rows: usize,
+    allowance: &Allowance,
     digests: &mut BTreeMap<&'static str, String>,
 ) -> Result<Option<Vec<f64>>> {
     let Some(path) = &model.internal_forces else { return Ok(None) };
     let LoadColumn { values, digest } =
-        load_column(WantedColumn { path, load: "internal forces", column: None, n_rows })?;
+        load_column(WantedColumn { path, load: "internal forces", column: None, n_rows }, allowance)?;
     digests.insert("internal_forces", digest);
     Ok(Some(values))
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::allowance::Allowance;
 use super::file_start::FileStart;
 use super::rectangular::{Content, RectangularFile};
 use super::superelement_file;
@@ -34,14 +35,14 @@ pub struct WantedColumn<'a> {
 ///
 /// # Errors
 /// A file that cannot be read or is neither a Matrix Market file of loads nor a superelement; [`Error::LoadRows`] and [`Error::LoadColumn`] where it has another size;
-/// [`Error::Changed`] where it is written meanwhile.
-pub fn load_column(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
-    unchanged(wanted.path, || read(wanted))
+/// [`Error::Changed`] where it is written meanwhile; [`Error::MemoryRead`] for a superelement that `allowance` has no room for.
+pub fn load_column(wanted: WantedColumn<'_>, allowance: &Allowance) -> Result<LoadColumn> {
+    unchanged(wanted.path, || read(wanted, allowance))
 }
 
-fn read(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
+fn read(wanted: WantedColumn<'_>, allowance: &Allowance) -> Result<LoadColumn> {
     if superelement_file::begins(&FileStart::of(wanted.path)?) {
-        return of_superelement(wanted);
+        return of_superelement(wanted, allowance);
     }
     let file = RectangularFile::open(wanted.path, Content::Load { load: wanted.load, n_rows: wanted.n_rows })?;
     let column = column_of(file.n_columns, wanted)?;
@@ -56,8 +57,8 @@ fn read(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
 }
 
 /// A load vector that a superelement has.
-fn of_superelement(wanted: WantedColumn<'_>) -> Result<LoadColumn> {
-    let loads = superelement_file::load_vectors(wanted.path)?;
+fn of_superelement(wanted: WantedColumn<'_>, allowance: &Allowance) -> Result<LoadColumn> {
+    let loads = superelement_file::load_vectors(wanted.path, allowance)?;
     let column = column_of(loads.columns.cols() as u64, wanted)? as usize;
     let values: Vec<f64> = (0..loads.columns.rows()).map(|row| loads.columns[(row, column)]).collect();
     if values.len() != wanted.n_rows {

@@ -37,7 +37,7 @@ pub(super) fn map_and_nodes(
     let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, (digests, notes))).transpose()?;
     match (model.dofs.as_deref(), nodes, model.nodes.as_deref()) {
         (Some(path), nodes, nodes_path) => {
-            let (dofs, of_map) = unchanged(path, || Ok((read_dofs(path, n, notes)?, digest(path)?)))?;
+            let (dofs, of_map) = unchanged(path, || Ok((read_dofs(path, n, (allowance, notes))?, digest(path)?)))?;
             digests.insert("dofs", of_map);
             let Some((nodes, nodes_path)) = nodes.zip(nodes_path) else {
                 dof_map::check_repeated(path, &dofs)?;
@@ -125,14 +125,14 @@ fn refuse_out_of_range(path: &Path, nodes: &Nodes) -> Result<()> {
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong; [`Error::DofRepeated`].
-pub(super) fn dof_map_for_labels(path: &Path) -> Result<DofMap> {
-    let dofs = formats::of_dof_map(path)?.read(path, MAX_ORDER)?.dofs;
+pub(super) fn dof_map_for_labels(path: &Path, allowance: &Allowance) -> Result<DofMap> {
+    let dofs = formats::of_dof_map(path)?.read(path, MAX_ORDER, allowance)?.dofs;
     dof_map::check_repeated(path, &dofs)?;
     Ok(dofs)
 }
 
-fn read_dofs(path: &Path, n: usize, notes: &mut Vec<InputNote>) -> Result<DofMap> {
-    let read = formats::of_dof_map(path)?.read(path, n)?;
+fn read_dofs(path: &Path, n: usize, (allowance, notes): (&Allowance, &mut Vec<InputNote>)) -> Result<DofMap> {
+    let read = formats::of_dof_map(path)?.read(path, n, allowance)?;
     if read.n_rows != n {
         return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });
     }

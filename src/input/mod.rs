@@ -81,6 +81,7 @@ mod single_matrix;
 mod single_precision;
 mod source;
 mod state_table;
+pub(crate) mod strainless;
 pub(crate) mod superelement_file;
 mod table;
 mod tag_groups;

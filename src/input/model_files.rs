@@ -86,7 +86,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let labels = dofs.as_ref().filter(|_| !is_labelled || map.is_some()).map_or(labels, RowLabels::of_map);
     let mut mass = mass.unwrap_or_else(|| unit_mass::of(&stiffness.matrix, dofs.as_deref()));
     let constraints = read_constraints(model, n, allowance, &mut digests)?;
-    let forces = read_internal_forces(model, n, &mut digests)?;
+    let forces = read_internal_forces(model, n, allowance, &mut digests)?;
     let mut rows = FileRows::default();
     let tied = constraints.as_ref().map_or_else(Vec::new, ConstraintRows::tied);
     if model.drop_empty
@@ -120,11 +120,11 @@ fn refuse_other_superelements(
 ///
 /// # Errors
 /// What [`load_column`](super::load_column) refuses; [`Error::LoadKeys`].
-pub fn load_columns(loads: &[LoadJob], input: &Input) -> Result<Vec<Option<LoadColumn>>> {
+pub fn load_columns(loads: &[LoadJob], input: &Input, allowance: &Allowance) -> Result<Vec<Option<LoadColumn>>> {
     let n_rows = input.n_file_rows();
     let of_load = |load: &LoadJob| match load.pattern()? {
         LoadPattern::File(path, column) => {
-            let read = load_column(WantedColumn { path, load: &load.name, column, n_rows })?;
+            let read = load_column(WantedColumn { path, load: &load.name, column, n_rows }, allowance)?;
             refuse_other(&input.stiffness, "a load", (path, &read.digest))?;
             Ok(Some(read))
         }
@@ -273,7 +273,8 @@ fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNo
     let (stiffness, mass) = (stiffness?, mass?);
     let matrices: Vec<&ReadMatrix> = std::iter::once(&stiffness).chain(&mass).collect();
     let is_labelled = matrices.iter().any(|matrix| matrix.labels.is_some());
-    let map = model.dofs.as_deref().filter(|_| is_labelled).map(dof_map_for_labels).transpose()?;
+    let map =
+        model.dofs.as_deref().filter(|_| is_labelled).map(|path| dof_map_for_labels(path, allowance)).transpose()?;
     let labels = RowLabels::common(&matrices, map.as_ref())?;
     let stiffness = labels.placed(stiffness)?;
     let (mut stiffness, mut mass) = match mass {

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::allowance::Allowance;
 use super::bulk_cards::Cards;
 use super::file_start::FileStart;
 use super::format::{DirectionBase, DofMapFormat, Format, ReadDofs, Sureness};
@@ -29,7 +30,7 @@ impl Format for NastranRows {
 }
 
 impl DofMapFormat for NastranRows {
-    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs> {
+    fn read(&self, path: &Path, n: usize, _: &Allowance) -> Result<ReadDofs> {
         let listed = extern_rows(path)?;
         let labels = if listed.is_empty() { all_rows(path)? } else { listed };
         if labels.is_empty() {

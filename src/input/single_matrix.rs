@@ -7,7 +7,7 @@ use super::format::MatrixSource;
 use super::map_and_nodes::dof_map_for_labels;
 use super::member::split_member;
 use super::model_files::read_matrix;
-use super::{Allowance, InputNote, MatrixInput, MatrixRole, common_rows, formats};
+use super::{Allowance, InputNote, MatrixInput, MatrixRole, common_rows, formats, superelement_file};
 use crate::dofs::DofMap;
 use crate::error::Result;
 use crate::job::Layout;
@@ -62,7 +62,7 @@ impl SingleMatrix {
         let source = self.source(allowance);
         let layout = formats::of_matrix(&source)?.layout();
         let read = read_matrix(&source)?;
-        let map = self.dofs.as_deref().map(dof_map_for_labels).transpose()?;
+        let map = self.dofs.as_deref().map(|path| dof_map_for_labels(path, allowance)).transpose()?;
         let labels = match (&read.labels, &map) {
             (_, Some(map)) => RowLabels::of_map(map),
             (Some(labels), None) => RowLabels::of_labels(labels),
@@ -70,7 +70,14 @@ impl SingleMatrix {
         };
         let mut notes = Vec::new();
         let (input, _) = common_rows::take_notes(labels.placed(read)?, &mut notes);
-        let dofs = map.or_else(|| labels.dof_map()).filter(|dofs| dofs.len() == input.matrix.rows());
+        let own = || {
+            if layout == Layout::Superelement { superelement_file::dof_map(&source.file, allowance) } else { Ok(None) }
+        };
+        let dofs = match map.or_else(|| labels.dof_map()) {
+            Some(dofs) => Some(dofs),
+            None => own()?,
+        };
+        let dofs = dofs.filter(|dofs| dofs.len() == input.matrix.rows());
         Ok(ReadSingle { input, layout, name: source.member, dofs, notes })
     }
 }

@@ -20,9 +20,11 @@ use super::format::{
 };
 use super::member::split_member;
 use super::named::chosen;
+use super::strainless::condensed_stiffness;
+use super::unsupported_format::{PACKED_SUPERELEMENT, is_packed_superelement};
 use super::{MatrixInput, MatrixRole};
 use crate::dense;
-use crate::dofs::{Dof, Nodes};
+use crate::dofs::{Dof, DofMap, Nodes};
 use crate::error::{Error, Result};
 use crate::job::Layout;
 use crate::regular_file;
@@ -36,12 +38,13 @@ impl Format for SuperelementFile {
     }
 }
 
-/// Whether a file is a superelement, by its first bytes.
+/// Whether a file is a superelement, by its first bytes; one that is packed is one, too, and cannot be read.
 ///
 /// # Errors
 /// A file that cannot be opened or read.
 pub fn is_superelement(path: &Path) -> Result<bool> {
-    Ok(begins(&FileStart::of(path)?))
+    let start = FileStart::of(path)?;
+    Ok(begins(&start) || is_packed_superelement(&start))
 }
 
 /// Refuses a superelement, with its BLAKE3, that is read for `what` and is not the one that the stiffness is read of.
@@ -85,21 +88,27 @@ impl MatrixFormat for SuperelementFile {
         if matches!((name, source.role), (STIFFNESS, MatrixRole::Mass) | (MASS, MatrixRole::Stiffness)) {
             return Err(no_model(path, "has the other matrix of the two under this name", "exchange the two names"));
         }
-        if name == STIFFNESS && source.role == MatrixRole::Stiffness && has_free_dof(&superelement) {
+        let condensed = if name == STIFFNESS && source.role == MatrixRole::Stiffness {
+            Some(condensed_stiffness(&superelement)?)
+        } else {
+            None
+        };
+        if condensed.as_ref().is_some_and(|stiffness| has_free_dof(&superelement, stiffness)) {
             return Err(no_model(path, NO_STIFFNESS, FREE_DOF));
         }
+        let matrix = condensed.as_ref().unwrap_or(matrix);
         let mut input =
             entries(matrix, source)?.into_matrix(source, (matrix.rows() as u32, source.role.undeclared()), digest)?;
         if name == STIFFNESS && source.stated_digits.is_none() {
-            input.digits = condensed(&superelement, &input)?;
+            input.digits = digits_shown(&superelement, matrix, input.digits)?;
         }
         Ok(ReadMatrix::with_size(input))
     }
 }
 
 impl DofMapFormat for SuperelementFile {
-    fn read(&self, path: &Path, n: usize) -> Result<ReadDofs> {
-        let (superelement, _) = opened(path, &Allowance::of(None))?;
+    fn read(&self, path: &Path, n: usize, allowance: &Allowance) -> Result<ReadDofs> {
+        let (superelement, _) = opened(path, allowance)?;
         if superelement.has_rigid_amplitudes() {
             return Err(no_model(
                 path,
@@ -107,16 +116,32 @@ impl DofMapFormat for SuperelementFile {
                 NO_MAP,
             ));
         }
-        let metadata = superelement.metadata();
-        let labels = metadata.interface_labels();
-        let dof = |coordinate: &Coordinate| match coordinate {
-            Coordinate::Interface { node, direction } => Some(Dof { node: labels[*node], direction: *direction }),
-            _ => None,
-        };
-        let dofs = metadata.coordinates.iter().take(n).map(dof).collect();
-        let n_rows = metadata.coordinates.len();
+        let mut dofs = labelled(&superelement);
+        let n_rows = dofs.len();
+        dofs.truncate(n);
         Ok(ReadDofs { dofs, n_rows, base: DirectionBase::One, local_directions: None })
     }
+}
+
+/// What each row is; modal amplitudes are no dofs of nodes.
+fn labelled(superelement: &Superelement) -> DofMap {
+    let metadata = superelement.metadata();
+    let labels = metadata.interface_labels();
+    let dof = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { node, direction } => Some(Dof { node: labels[*node], direction: *direction }),
+        _ => None,
+    };
+    metadata.coordinates.iter().map(dof).collect()
+}
+
+/// What each row of the superelement in a file is; none where it has no nodes or amplitudes that move with rigid-body motion.
+///
+/// # Errors
+/// A superelement that cannot be read or is no model; [`Error::MemoryRead`].
+pub(super) fn dof_map(path: &Path, allowance: &Allowance) -> Result<Option<DofMap>> {
+    let (superelement, _) = opened(path, allowance)?;
+    let has_map = !superelement.has_rigid_amplitudes() && !superelement.metadata().interface_nodes.is_empty();
+    Ok(has_map.then(|| labelled(&superelement)))
 }
 
 impl NodeFormat for SuperelementFile {
@@ -151,9 +176,9 @@ pub(super) struct LoadVectors {
 /// The load vectors of the superelement in a file; no column where it has none.
 ///
 /// # Errors
-/// A superelement that cannot be read or is no model.
-pub(super) fn load_vectors(path: &Path) -> Result<LoadVectors> {
-    let (superelement, digest) = opened(path, &Allowance::of(None))?;
+/// A superelement that cannot be read or is no model; [`Error::MemoryRead`].
+pub(super) fn load_vectors(path: &Path, allowance: &Allowance) -> Result<LoadVectors> {
+    let (superelement, digest) = opened(path, allowance)?;
     let none = || Matrix::from_fn(superelement.n_coordinates(), 0, |_, _| 0.0);
     let columns = superelement.tensors().load_vectors.clone().unwrap_or_else(none);
     Ok(LoadVectors { columns, digest })
@@ -162,15 +187,14 @@ pub(super) fn load_vectors(path: &Path) -> Result<LoadVectors> {
 const STIFFNESS: &str = "stiffness";
 const MASS: &str = "mass";
 
-/// What speaks against a superelement that moves in a direction of its interface without strain, as nodes in one plane do across it.
+/// What speaks against a superelement of which a dof has stiffness, but none that rounding leaves.
 pub(crate) const NO_STIFFNESS: &str = "has no stiffness but rounding at a dof of its interface";
 
-/// Whether a dof of the interface has a stiffness that is nothing next to the largest of its kind, translations or rotations. In a K̂ that is
-/// condensed from larger numbers rounding is as much, of either sign.
-pub(crate) fn has_free_dof(superelement: &Superelement) -> bool {
+/// Whether a dof of the interface that does not move alone has a stiffness that is nothing next to the largest of its kind, translations or
+/// rotations. In a K̂ that is condensed from larger numbers rounding is as much, of either sign.
+pub(crate) fn has_free_dof(superelement: &Superelement, condensed: &Matrix) -> bool {
     /// Bending of a beam of 1:1000 has 10⁻⁶ of its axial stiffness.
     const NOTHING: f64 = 1e-10;
-    let stiffness = &superelement.tensors().stiffness;
     let turns = |coordinate: &Coordinate| match coordinate {
         Coordinate::Interface { direction, .. } => Some(direction.is_rotation()),
         Coordinate::InterfaceRow { .. } => Some(false),
@@ -178,9 +202,9 @@ pub(crate) fn has_free_dof(superelement: &Superelement) -> bool {
     };
     let kinds: Vec<Option<bool>> = superelement.metadata().coordinates.iter().map(turns).collect();
     [false, true].into_iter().any(|kind| {
-        let rows = || (0..kinds.len()).filter(|row| kinds[*row] == Some(kind)).map(|row| stiffness[(row, row)]);
+        let rows = || (0..kinds.len()).filter(|row| kinds[*row] == Some(kind)).map(|row| condensed[(row, row)]);
         let largest = rows().fold(0.0, f64::max);
-        rows().any(|value| value < NOTHING * largest)
+        rows().any(|value| value != 0.0 && value < NOTHING * largest)
     })
 }
 
@@ -196,10 +220,14 @@ fn no_model(path: &Path, found: &'static str, remedy: &'static str) -> Error {
 /// The superelement in a file, and the bytes of that.
 ///
 /// # Errors
-/// A file that cannot be read, is none or holds none.
+/// A file that cannot be read or is none; [`Error::FormatNotRead`] where it is packed.
 pub fn superelement(path: &Path) -> Result<(Superelement, Vec<u8>)> {
     let failed = |error| Error::of_superelement(path, error);
     regular_file::open(path).map(drop)?;
+    if is_packed_superelement(&FileStart::of(path)?) {
+        let (found, expected) = (PACKED_SUPERELEMENT, "a superelement as supel writes it");
+        return Err(Error::FormatNotRead { path: path.to_owned(), found, expected, advice: "unpack it" });
+    }
     let bytes = supel_runtime::file_bytes(path).map_err(failed)?;
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
     Ok((superelement, bytes))
@@ -264,12 +292,12 @@ fn entries<'a>(matrix: &Matrix, source: &MatrixSource<'a>) -> Result<Collector<'
 }
 
 /// The digits that rigid-body motion shows K̂ to have, no more than its values.
-fn condensed(superelement: &Superelement, input: &MatrixInput) -> Result<Digits> {
+fn digits_shown(superelement: &Superelement, stiffness: &Matrix, of_values: Digits) -> Result<Digits> {
     let tensors = superelement.tensors();
     if tensors.mass.rows() == 0 {
-        return Ok(input.digits);
+        return Ok(of_values);
     }
-    let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
     let shown = digits(k.as_ref(), m.as_ref(), u.as_ref())?;
-    Ok(shown.map_or(input.digits, |shown| Digits::condensed((shown as u32).min(input.digits.significant))))
+    Ok(shown.map_or(of_values, |shown| Digits::condensed((shown as u32).min(of_values.significant))))
 }

@@ -38,6 +38,14 @@ const AS_NODES: &str =
 /// What to do with text in another encoding.
 const AS_UTF8: &str = "write it as UTF-8 (in PowerShell: Get-Content FILE | Set-Content -Encoding utf8 NEW)";
 
+/// What a superelement is called that its reader does not unpack.
+pub(super) const PACKED_SUPERELEMENT: &str = "a packed superelement";
+
+/// Whether a file is a superelement, packed.
+pub(super) fn is_packed_superelement(start: &FileStart<'_>) -> bool {
+    start.packing.is_some() && supel_runtime::begins_as_superelement(&start.head)
+}
+
 /// A format that is not read.
 struct Foreign {
     /// Whether a file begins as one of it does.
@@ -48,7 +56,7 @@ struct Foreign {
 }
 
 /// The formats, the more particular first.
-const FORMATS: [Foreign; 11] = [
+const FORMATS: [Foreign; 12] = [
     Foreign { begins: |start| is_utf16(&start.head), found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
     Foreign {
         begins: |start| start.head.starts_with(b"PK") && start.holds(b".npy"),
@@ -65,6 +73,12 @@ const FORMATS: [Foreign; 11] = [
     Foreign {
         begins: |start| start.packing.is_some() && start.begins_as_hdf5(),
         found: "a packed HDF5 file",
+        for_matrix: "unpack it",
+        for_table: "unpack it",
+    },
+    Foreign {
+        begins: is_packed_superelement,
+        found: PACKED_SUPERELEMENT,
         for_matrix: "unpack it",
         for_table: "unpack it",
     },

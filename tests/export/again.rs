@@ -2,9 +2,11 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel_models::transform::{carrying, join, translated};
 use supel_models::{Material, brick};
 use supel_runtime::{Coordinate, Superelement};
-use supel_testing::place::{Place, frequencies_hz, supel};
+use supel_testing::cases::hinged;
+use supel_testing::place::{Place, assert_close, frequencies_hz, steel_brick, supel};
 
 use super::{HELD, HINGED, export, reduced};
 
@@ -219,17 +221,86 @@ force = [0, 1, 0]
     assert!(found.metadata().coordinates.iter().any(is_residual));
 }
 
-/// An interface that just holds its component has no stiffness but rounding, of which nothing can be made.
+/// An interface that just holds its component has no stiffness but rounding, which is left out: by modes it is a model, and without them
+/// there is nothing to reduce.
 #[test]
-fn an_interface_that_just_holds_leaves_no_job() {
+fn an_interface_that_just_holds_has_no_stiffness() {
     let place = Place::with_brick();
-    for method in ["herting --modes 3", "craig-bampton --modes 3", "guyan"] {
-        let rest = format!("--rigid-interface foot=1,11,31 --method {method}");
-        place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+    let reduced = |rest: &str| {
+        let _ = std::fs::remove_file(place.path("x.job.toml"));
+        place.reduce(&place.model_flags(), rest).expect(ExitCode::Done);
         export(&place, "matrix-market", &[]).expect(ExitCode::Done);
-        assert!(place.path("x.stiffness.mtx").exists());
-        assert!(!place.path("x.job.toml").exists(), "{method}");
+        String::from_utf8(place.bytes("x.stiffness.mtx")).expect("text")
+    };
+    for (interface, method, n_alone) in [
+        ("--rigid-interface foot=1,11,31", "herting", 6),
+        ("--rigid-interface foot=1,11,31", "craig-bampton", 6),
+        // Three nodes in a plane give way across it.
+        ("--interface foot=1,11,31", "herting", 3),
+    ] {
+        let stiffness = reduced(&format!("{interface} --method {method} --modes 5"));
+        let entries = stiffness.lines().filter(|line| !line.starts_with('%')).skip(1);
+        let rows: std::collections::BTreeSet<&str> = entries.flat_map(|line| line.split(' ').take(2)).collect();
+        let expected = place.superelement("x.supel");
+        assert_eq!(rows.len(), expected.n_coordinates() - n_alone, "{interface} {method}: {rows:?}");
+        let body = |job: &str| {
+            supel(&["reduce", &place.text(job)]).expect(ExitCode::Done);
+            place.superelement("x.again.supel")
+        };
+        let (exported, found) = (body("x.job.toml"), body("x.supel"));
+        assert_eq!(exported.tensors().stiffness, found.tensors().stiffness, "{interface} {method}");
+        // The rounding of K̂ is in the error bars of both; a decomposition of a few coordinates adds some 10⁻¹³.
+        assert_close(&frequencies_hz(&found), &frequencies_hz(&expected), 1e-9);
+        supel(&["verify", &place.text("x.again.supel"), "--job", &place.text("x.supel")]).expect(ExitCode::Done);
     }
+    reduced("--rigid-interface foot=1,11,31 --method guyan");
+    assert!(!place.path("x.job.toml").exists());
+}
+
+/// The patch of a free body next to another one has no stiffness but rounding, which is small next to nothing of its own.
+#[test]
+fn a_body_that_its_interface_just_holds_is_told_from_others() {
+    let body = steel_brick();
+    let place = Place::with(&join(&body, &translated(&body, [1e3, 0.0, 0.0]), &[]));
+    // The second body has the labels from 46 on.
+    let interfaces = "--rigid-interface foot=1,11,31 --rigid-interface tip=5,15,35 --rigid-interface other=46,56,76";
+    place.reduce(&place.model_flags(), &format!("{interfaces} --method guyan")).expect(ExitCode::Done);
+    supel(&["reduce", &place.text("x.supel")]).expect(ExitCode::Done);
+    let (found, expected) = (place.superelement("x.again.supel"), place.superelement("x.supel"));
+    assert_eq!([found.n_rigid(), expected.n_rigid()], [12, 12]);
+}
+
+/// A mass of ten million times the component makes roundings of rigid-body motion larger than a shift by the diagonals that carry it.
+#[test]
+fn digits_next_to_a_heavy_mass_agree_with_reduce() {
+    let beam = brick([6, 2, 2], [3.0, 0.05, 0.05], &Material::STEEL_SI);
+    let place = Place::with(&carrying(&beam, &[32], 1e7 * 3.0 * 0.05 * 0.05 * 7850.0));
+    let ends = "--rigid-interface left=1,8,15,22 --rigid-interface right=7,14,21,28";
+    for method in METHODS {
+        place.reduce(&place.model_flags(), &format!("{ends} --method {method} --modes 3")).expect(ExitCode::Done);
+        supel(&["reduce", &place.text("x.supel")]).expect(ExitCode::Done);
+        supel(&["verify", &place.text("x.again.supel"), "--job", &place.text("x.supel")]).expect(ExitCode::Done);
+    }
+}
+
+/// A hinge on a support: what moves without strain is not what the nodes say, so that rows are to be taken in their place.
+#[test]
+fn a_held_mechanism_is_a_model_by_its_rows() {
+    let place = Place::with(&hinged());
+    let job = "model = { stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }\n\
+         interface = [{ name = \"here\", nodes = [1, 2, 4, 7] }, { name = \"there\", nodes = [15, 18, 21] }]\n\
+         fixed = [{ name = \"wall\", nodes = [10] }]\n\
+         reduction = { method = \"herting\", modes = { count = 3 } }\nwrite = { superelement = \"x.supel\" }\n";
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    let text = String::from_utf8(place.bytes("x.job.toml")).expect("text");
+    assert!(text.contains("it moves otherwise") && !text.contains("x.dofs.csv"), "{text}");
+    supel(&["reduce", &place.text("x.supel")]).expect(ExitCode::Done);
+    let (found, expected) = (place.superelement("x.again.supel"), place.superelement("x.supel"));
+    // Three rotations about the node that is held, and the hinge.
+    assert_eq!([found.n_rigid(), expected.n_rigid()], [4, 4]);
+    assert_close(&frequencies_hz(&found), &frequencies_hz(&expected), 1e-9);
 }
 
 /// Amplitudes are in the units of their shapes, in which a stiffness may have any size.

@@ -2,7 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::{Material, brick};
-use supel_runtime::{Flag, Metadata, Superelement, Verdict};
+use supel_runtime::{Flag, Matrix, Metadata, Superelement, Verdict};
 use supel_testing::place::{Ended, Place, supel};
 
 use super::{HELD, assert_same_bits, export, reduced};
@@ -131,16 +131,75 @@ fn a_superelement_without_a_second_job_says_why() {
     for (flags, why) in [
         ("--rigid-interface foot=1,11,31,41 --method guyan", "just holds it"),
         ("--method rubin --modes 5", "no interface"),
-        // Three nodes in a plane give way across it.
-        ("--interface foot=1,11,31 --method herting --modes 4", "no stiffness but rounding at a dof"),
     ] {
         place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
         assert_refused(supel(&["reduce", &place.text("x.supel")]), &["E-NO-MODEL", why, "docs/export.md"]);
+    }
+    // A stiffness that rounding may have left, at a dof that rigid-body motion does not move alone.
+    let place = reduced("herting", "");
+    let file = place.superelement("x.supel");
+    let mut tensors = file.tensors().clone();
+    let stiffness = &file.tensors().stiffness;
+    let factor = |row: usize| if row == 0 { 1e-6 } else { 1.0 };
+    tensors.stiffness =
+        Matrix::from_fn(stiffness.rows(), stiffness.cols(), |i, j| factor(i) * factor(j) * stiffness[(i, j)]);
+    let file = Superelement::new(tensors, file.metadata().clone()).expect("a superelement still");
+    place.write("x.supel", &file.to_bytes().expect("bytes").bytes);
+    let why = "no stiffness but rounding at a dof";
+    for ended in [supel(&["reduce", &place.text("x.supel")]), reduce_rows(&place, WITH_NODES, "[1]")] {
+        assert_refused(ended, &["E-NO-MODEL", why]);
     }
     place.write("x.supel", &place.bytes("x.supel")[..5000]);
     assert_refused(supel(&["reduce", &place.text("x.supel")]), &["E-SUPERELEMENT"]);
     assert_refused(supel(&["plan", &place.text("x.supel")]), &["E-SUPERELEMENT"]);
     export(&place, "matrix-market", &[]).expect(ExitCode::InputData);
+}
+
+/// `gzip x.supel`, as people pack what they send.
+#[test]
+fn a_packed_superelement_is_to_be_unpacked() {
+    let place = reduced("herting", "");
+    let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    std::io::Write::write_all(&mut packed, &place.bytes("x.supel")).expect("packed");
+    place.write("x.supel.gz", &packed.finish().expect("packed"));
+    let file = place.text("x.supel.gz");
+    let output = place.text("y.supel");
+    let model = ["reduce", "--stiffness", &file, "--mass", &file, "--method", "guyan", "--output", &output];
+    for args in [["reduce", file.as_str()].as_slice(), &["inspect", &file], &["verify", &file], &model] {
+        assert_refused(supel(args), &["E-FORMAT", "a packed superelement", "unpack it"]);
+    }
+}
+
+/// The rows of a matrix of a superelement are those of its coordinates.
+#[test]
+fn rows_of_a_superelement_have_names() {
+    let place = reduced("herting", "");
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    let (mass, table) = (format!("{}:mass", place.text("x.supel")), place.text("rows.csv"));
+    supel(&["convert", &mass, &place.text("mass.npz"), "--write-dofs", &table]).expect(ExitCode::Done);
+    assert_eq!(place.bytes("rows.csv"), place.bytes("x.dofs.csv"));
+    // Rows of no node, and amplitudes that move.
+    for (model, rest) in [
+        (place.matrix_flags(), "--interface ends=rows:0,1,2,30,31,32,120,121,122,132,133,134 --method guyan"),
+        (place.model_flags(), "--interface pin=1 --method rubin --modes 4"),
+    ] {
+        place.reduce(&model, rest).expect(ExitCode::Done);
+        let unnamed = supel(&["convert", &mass, &place.text("mass.npz"), "--write-dofs", &table]);
+        assert_refused(unnamed, &["E-ROWS-UNNAMED"]);
+    }
+}
+
+/// What is read of a superelement counts, whatever it is read for.
+#[test]
+fn all_parts_of_a_superelement_take_memory() {
+    use supel::input::{Allowance, WantedColumn, load_column, nodes};
+    let place = reduced("herting", "");
+    let (path, size) = (place.path("x.supel"), place.bytes("x.supel").len() as u64);
+    let wanted = WantedColumn { path: &path, load: "push", column: Some(0), n_rows: 1 };
+    let too_little = Allowance::of(Some(size / 2));
+    for error in [load_column(wanted, &too_little).map(drop), nodes(&path, &too_little).map(drop)] {
+        assert_eq!(error.expect_err("too little").code(), "E-MEM-READ");
+    }
 }
 
 /// Modal amplitudes of two components have as many rows, and not the same meaning.

@@ -25,7 +25,9 @@ pub(super) fn frequencies(file: &Scaled, asked: &AskedModes, precision: Precisio
         }
     }
     let bars = asked.modes.errors.iter().map(|error| error.relative_bar).fold(0.0, f64::max);
-    let arithmetic = NOISE_FACTOR * bars * share_of_arithmetic(precision);
+    // Roundings of the terms, those of a heavy mass among them, of which digits of K are no measure.
+    let of_terms = asked.modes.errors.iter().map(|error| f64::EPSILON * error.cancellation).fold(0.0, f64::max);
+    let arithmetic = NOISE_FACTOR * of_terms.max(bars * share_of_arithmetic(precision));
     // A shape that is turned by an angle has a Rayleigh quotient that is off by the square.
     let turned = asked.angles.iter().map(|angle| NOISE_FACTOR * angle * angle).fold(0.0, f64::max);
     let limits =

@@ -29,7 +29,7 @@ impl<'a> Full<'a> {
     /// K − σM is not definite; the eigensolver fails.
     pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis, given: &RigidBodyModes) -> Result<Self> {
         let problem = partition.free_problem();
-        let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
+        let found = shifted(analysis, problem, by_coordinates(given), &|dof| partition.name_of(dof))?;
         let n_zero = confirmed(&found, given);
         let shapes = found.lowest.shapes.as_ref().subcols(0, n_zero).to_owned();
         let first = found.lowest.lambda.get(n_zero).copied().or(found.lowest.next).unwrap_or(1.0);
@@ -47,11 +47,16 @@ impl<'a> Full<'a> {
     }
 }
 
+/// How many motions are free by coordinates.
+fn by_coordinates(given: &RigidBodyModes) -> usize {
+    if given.source == RigidSource::Geometric { given.count() } else { 0 }
+}
+
 /// How many modes are zero: by their own levels, or as many as the coordinates say where none of those is above the largest level, which
 /// is what the motions of the coordinates are held to. Modes beyond those of the coordinates that only rounding of their neighbours
 /// makes zero are elastic: where ties of 10⁹ times the stiffness hide half the digits, the soft ones cannot be told by their neighbours.
 fn confirmed(found: &Shifted<'_>, given: &RigidBodyModes) -> usize {
-    let n_given = if given.source == RigidSource::Geometric { given.count() } else { 0 };
+    let n_given = by_coordinates(given);
     if (1..found.n_zero).contains(&n_given) {
         let beyond = n_given..found.n_zero;
         let is_elastic = |j: usize| !zero::is_zero(found.lowest.lambda[j], found.lowest.errors[j].zero_level);

@@ -113,7 +113,7 @@ impl Known {
     fn of(subject: &Subject) -> Self {
         let job = subject.job();
         let read = input::read(&job.model).expect("files");
-        let columns = input::load_columns(&job.loads, &read).expect("files");
+        let columns = input::load_columns(&job.loads, &read, &Allowance::of(None)).expect("files");
         let modes = input::expansion_columns(&job.reduction, &read, &Allowance::of(None)).expect("files");
         let rows = input::job_quantities(job.write.quantities.as_ref(), &read, &Allowance::of(None)).expect("files");
         let facts = InputFacts::of(&read).with_loads(&job.loads, &columns).with_modes(modes.as_ref());
