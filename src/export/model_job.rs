@@ -1,6 +1,6 @@
 //! The job that reduces a superelement again, as it is: its interfaces, its method, its modes.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::path::Path;
 
@@ -48,13 +48,17 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
     }
     let without_nodes = without_nodes(superelement)?;
     let has_map = !labels.is_empty() && without_nodes.is_none();
+    let mut remarks: Vec<String> = without_nodes.into_iter().map(str::to_owned).collect();
+    let held = if has_map { held(superelement.metadata()) } else { held_interfaces(superelement.metadata()) };
     let (method, relief) = match method(superelement) {
-        // Rows of one interface cannot be held in part.
-        ("mixed-interface", relief) if !has_map => ("craig-bampton", relief),
+        ("mixed-interface", relief) if held.is_empty() => {
+            remarks.push(HELD_IN_PART.to_owned());
+            ("craig-bampton", relief)
+        }
         own => own,
     };
     Ok(Ok(JobText {
-        remarks: without_nodes.into_iter().map(str::to_owned).collect(),
+        remarks,
         map: if has_map { Map::Nodes } else { Map::Rows },
         units: superelement.metadata().units.clone(),
         held_rotations: held_rotations(superelement),
@@ -69,7 +73,7 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
         method,
         modes: (method != "guyan").then(|| Modes::Count(n_modes(superelement))),
         relief,
-        held: (method == "mixed-interface").then(|| held(superelement.metadata())),
+        held: (method == "mixed-interface").then_some(held),
     }))
 }
 
@@ -191,6 +195,26 @@ fn held(metadata: &Metadata) -> Vec<String> {
     let names: BTreeSet<String> = metadata.modes_held.iter().filter_map(of).collect();
     names.into_iter().collect()
 }
+
+/// The interfaces that were held while the modes were computed, where nothing else was; none otherwise.
+fn held_interfaces(metadata: &Metadata) -> Vec<String> {
+    let interface_of = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { node, .. } => Some(metadata.interface_nodes[*node].name.clone()),
+        _ => None,
+    };
+    let count = |coordinates: &mut dyn Iterator<Item = &Coordinate>| {
+        let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+        coordinates.filter_map(interface_of).for_each(|name| *counts.entry(name).or_default() += 1);
+        counts
+    };
+    let held = count(&mut metadata.modes_held.iter().map(|held| &metadata.coordinates[*held]));
+    let all = count(&mut metadata.coordinates.iter());
+    let is_whole = |(name, n): (&String, &usize)| all.get(name) == Some(n);
+    if held.iter().all(is_whole) { held.into_keys().collect() } else { Vec::new() }
+}
+
+/// What the job says where it cannot hold what its superelement held.
+const HELD_IN_PART: &str = "Rows of one interface cannot be held in part: the method is craig-bampton.";
 
 /// How many modes it keeps again. Modes that were left out because others span them are found again, as far as there are coordinates for
 /// them.

@@ -32,13 +32,15 @@ pub(crate) fn condensed_stiffness(superelement: &Superelement) -> Result<Matrix>
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
 pub(crate) fn moved_alone(rigid: MatRef<'_, f64>, lengths: &[f64]) -> Result<Vec<usize>> {
-    /// sin² between the row and rigid-body motion: coordinates and modes of seven digits leave 10⁻¹⁴, and a node out of the plane of others
-    /// by a ten-thousandth of their distance makes 10⁻⁸.
-    const ALONE: f64 = 1e-12;
+    /// Sine between the row and rigid-body motion: two bodies a hundred times their size apart leave 10⁻¹² of rounding. Three nodes that
+    /// are off a plane across the row by 10⁻⁷ of their distance have a stiffness along it that is a thousand times that rounding.
+    const ALONE: f64 = 1e-11;
     let basis = basis(rigid, lengths)?;
     let is_alone = |row: &usize| {
-        let square: f64 = (0..basis.ncols()).map(|j| basis[(*row, j)].powi(2)).sum();
-        1.0 - square <= ALONE
+        // 1 − Σ Q_ij² would be the rounding of one.
+        let along = |other: usize| (0..basis.ncols()).map(|j| basis[(other, j)] * basis[(*row, j)]).sum::<f64>();
+        let left = |other: usize| if other == *row { 1.0 - along(other) } else { along(other) };
+        (0..basis.nrows()).map(|other| left(other).powi(2)).sum::<f64>().sqrt() <= ALONE
     };
     Ok((0..basis.nrows()).filter(is_alone).collect())
 }

@@ -2,8 +2,8 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel_models::transform::{carrying, join, translated};
-use supel_models::{Material, brick};
+use supel_models::transform::{carrying, in_local_frames, join, translated};
+use supel_models::{Material, Model, brick};
 use supel_runtime::{Coordinate, Superelement};
 use supel_testing::cases::hinged;
 use supel_testing::place::{Place, assert_close, frequencies_hz, steel_brick, supel};
@@ -230,7 +230,6 @@ fn an_interface_that_just_holds_has_no_stiffness() {
         let _ = std::fs::remove_file(place.path("x.job.toml"));
         place.reduce(&place.model_flags(), rest).expect(ExitCode::Done);
         export(&place, "matrix-market", &[]).expect(ExitCode::Done);
-        String::from_utf8(place.bytes("x.stiffness.mtx")).expect("text")
     };
     for (interface, method, n_alone) in [
         ("--rigid-interface foot=1,11,31", "herting", 6),
@@ -238,11 +237,9 @@ fn an_interface_that_just_holds_has_no_stiffness() {
         // Three nodes in a plane give way across it.
         ("--interface foot=1,11,31", "herting", 3),
     ] {
-        let stiffness = reduced(&format!("{interface} --method {method} --modes 5"));
-        let entries = stiffness.lines().filter(|line| !line.starts_with('%')).skip(1);
-        let rows: std::collections::BTreeSet<&str> = entries.flat_map(|line| line.split(' ').take(2)).collect();
+        reduced(&format!("{interface} --method {method} --modes 5"));
         let expected = place.superelement("x.supel");
-        assert_eq!(rows.len(), expected.n_coordinates() - n_alone, "{interface} {method}: {rows:?}");
+        assert_eq!(rows_with_stiffness(&place), expected.n_coordinates() - n_alone, "{interface} {method}");
         let body = |job: &str| {
             supel(&["reduce", &place.text(job)]).expect(ExitCode::Done);
             place.superelement("x.again.supel")
@@ -255,6 +252,33 @@ fn an_interface_that_just_holds_has_no_stiffness() {
     }
     reduced("--rigid-interface foot=1,11,31 --method guyan");
     assert!(!place.path("x.job.toml").exists());
+}
+
+/// Three nodes whose plane is nearly across an axis have little stiffness along it, next to rounding of large ones: it is real, and kept.
+#[test]
+fn a_little_stiffness_next_to_large_ones_is_real() {
+    let body = steel_brick();
+    // Exactly across the axis there is none.
+    for (tilt, n_alone) in [(0.0, 3), (1e-7, 0), (3e-2, 0)] {
+        let (sin, cos) = f64::sin_cos(tilt);
+        let frame = [[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]];
+        let along = |x: &[f64; 3]| frame.map(|axis| (0..3).map(|i| axis[i] * x[i]).sum());
+        let turned = in_local_frames(&body, &frame, |_| true);
+        let place = Place::with(&Model { nodes: body.nodes.iter().map(along).collect(), ..turned });
+        place
+            .reduce(&place.model_flags(), "--interface foot=1,11,31 --method herting --modes 5")
+            .expect(ExitCode::Done);
+        export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+        let rows = rows_with_stiffness(&place);
+        assert_eq!(rows, place.superelement("x.supel").n_coordinates() - n_alone, "turned by {tilt}");
+    }
+}
+
+/// How many rows of x.stiffness.mtx have an entry.
+fn rows_with_stiffness(place: &Place) -> usize {
+    let stiffness = String::from_utf8(place.bytes("x.stiffness.mtx")).expect("text");
+    let entries = stiffness.lines().filter(|line| !line.starts_with('%')).skip(1);
+    entries.flat_map(|line| line.split(' ').take(2)).collect::<std::collections::BTreeSet<&str>>().len()
 }
 
 /// The patch of a free body next to another one has no stiffness but rounding, which is small next to nothing of its own.
@@ -301,6 +325,25 @@ fn a_held_mechanism_is_a_model_by_its_rows() {
     // Three rotations about the node that is held, and the hinge.
     assert_eq!([found.n_rigid(), expected.n_rigid()], [4, 4]);
     assert_close(&frequencies_hz(&found), &frequencies_hz(&expected), 1e-9);
+    // What was held as a whole is held again, and a part of it no more.
+    for (held, method) in [("[\"there\"]", "mixed-interface"), ("[\"there.ux\"]", "craig-bampton")] {
+        let mixed = job.replace("\"herting\"", &format!("\"mixed-interface\", held = {held}"));
+        place.write("job.toml", mixed.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+        std::fs::remove_file(place.path("x.job.toml")).expect("a job");
+        export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+        let text = String::from_utf8(place.bytes("x.job.toml")).expect("text");
+        assert!(text.contains(&format!("method = \"{method}\"")), "{held}: {text}");
+        assert_eq!(text.contains("cannot be held in part"), method == "craig-bampton", "{held}: {text}");
+        supel(&["reduce", &place.text("x.supel")]).expect(ExitCode::Done);
+        if method == "mixed-interface" {
+            assert_close(
+                &frequencies_hz(&place.superelement("x.again.supel")),
+                &frequencies_hz(&place.superelement("x.supel")),
+                1e-9,
+            );
+        }
+    }
 }
 
 /// Amplitudes are in the units of their shapes, in which a stiffness may have any size.
