@@ -19,6 +19,8 @@ pub struct ModalProblem<'a> {
     pub mass: Leading<'a>,
     /// Motions without energy that are no elastic modes, Q and MQ, n × n_r each with QᵀMQ = I; no columns where there are none.
     pub deflated: [MatRef<'a, f64>; 2],
+    /// How many motions that are not deflated are known to be free by other means than K.
+    pub n_free: usize,
     /// How well the entries of K and M are known.
     pub precision: Precision,
     /// What is known of the roundings in the entries of K one by one, where something is.
@@ -42,12 +44,17 @@ impl<'a> ModalProblem<'a> {
     pub fn of(pencil: Pencil<'a>, precision: Precision) -> Self {
         let Pencil { stiffness, mass } = pencil;
         let nothing = MatRef::from_column_major_slice(&[], stiffness.rows(), 0);
-        Self { stiffness, mass, deflated: [nothing, nothing], precision, noise: None }
+        Self { stiffness, mass, deflated: [nothing, nothing], n_free: 0, precision, noise: None }
     }
 
     /// The problem with motions deflated, Q and MQ.
     pub fn deflating(self, deflated: [MatRef<'a, f64>; 2]) -> Self {
         Self { deflated, ..self }
+    }
+
+    /// The problem with motions that are known to be free.
+    pub fn knowing_free(self, n_free: usize) -> Self {
+        Self { n_free, ..self }
     }
 
     /// The problem with roundings of K that are known entry by entry.

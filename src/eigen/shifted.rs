@@ -44,8 +44,8 @@ const WINDOW: std::ops::RangeInclusive<f64> = 1e-2..=10.0;
 /// Modes looked at first; doubled while all of them are zero modes.
 const LOOK_AT: usize = 12;
 
-/// Factors K − σM of a modal problem with a shift suited to it. `n_free` motions are known to be free by other means: as many eigenvalues
-/// may be below zero by the roundings of few digits.
+/// Factors K − σM of a modal problem with a shift suited to it. As many eigenvalues as there are motions known to be free may be below zero by
+/// the roundings of few digits.
 ///
 /// # Errors
 /// K − σM is not definite, or its digits do not tell; an eigenvalue is negative beyond the noise of the data; the eigensolver
@@ -53,7 +53,6 @@ const LOOK_AT: usize = 12;
 pub fn shifted<'a>(
     analysis: &'a Analysis,
     problem: ModalProblem<'_>,
-    n_free: usize,
     name: &dyn Fn(usize) -> String,
 ) -> Result<Shifted<'a>> {
     let mut sigma = first_shift(problem);
@@ -62,7 +61,7 @@ pub fn shifted<'a>(
     let rounding = problem.precision.stiffness;
     // Of motions that are known to be free the digits need not tell that they are, and rounding of a heavy mass may exceed a shift by the
     // diagonals of what carries it.
-    let are_known = n_free > 0 || problem.deflated[0].ncols() > 0;
+    let are_known = problem.n_free > 0 || problem.n_deflated() > 0;
     let is_retreat = |error: &Error| match error {
         Error::NotDefinite { .. } => !rounding.is_coarse() || rounding.is_beyond_entries() || are_known,
         // What is below zero is looked at once there is a factor.
@@ -97,7 +96,7 @@ pub fn shifted<'a>(
         // Nearer than where K − σM was not definite there is nothing.
         let settled = suited.is_none_or(|suited| WINDOW.contains(&(-sigma / suited)) || suited <= too_near);
         if settled || round == MAX_ROUNDS {
-            if !rounding.is_coarse() || n_zero > n_free {
+            if !rounding.is_coarse() || n_zero > problem.n_free {
                 refuse_negative(analysis, problem, (&lowest, first_elastic))?;
             }
             return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round + n_retreats + n_wider });
@@ -201,7 +200,7 @@ mod tests {
     fn with_lowest<T>(stiffness: &SparseMatrix, mass: &SparseMatrix, look: impl Fn(Result<Shifted<'_>>) -> T) -> T {
         let pencil = Pencil::new(stiffness, mass);
         let analysis = Analysis::new(pencil).expect("an analysis");
-        look(shifted(&analysis, ModalProblem::of(pencil, BINARY), 0, &|dof| dof.to_string()))
+        look(shifted(&analysis, ModalProblem::of(pencil, BINARY), &|dof| dof.to_string()))
     }
 
     #[test]

@@ -1,28 +1,32 @@
 //! Whether the nodes of a model can say how it moves without strain.
 
 use faer::{Mat, MatRef};
+use supel_runtime::Direction;
 
 use crate::dense;
 use crate::error::Result;
-use crate::input::strainless::{basis, span};
+use crate::input::strainless::{basis, lengths};
 use crate::model::{Frame, Site};
+
+/// Direction and position of a row.
+type Place = (Direction, [f64; 3]);
 
 /// Whether supports hold a rigid-body motion of the nodes, and a motion without strain is none of theirs: a hinge on a support. Supports
 /// touch all rows of a condensed stiffness, and its nodes cannot be compared with it by the motions that are left. Rows of Û without a
-/// site, which are at rest, do not count.
+/// place, which are at rest, do not count.
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
-pub(super) fn is_held_and_gives_way(sites: &[Option<Site>], rigid: MatRef<'_, f64>) -> Result<bool> {
+pub(super) fn is_held_and_gives_way(places: &[Option<Place>], rigid: MatRef<'_, f64>) -> Result<bool> {
     /// The sine of the angle between a motion and those of the nodes. Coordinates of five digits leave less.
     const OTHER: f64 = 1e-4;
-    let rows: Vec<usize> = (0..sites.len()).filter(|row| sites[*row].is_some()).collect();
-    let places: Vec<Site> = sites.iter().copied().flatten().collect();
-    let positions: Vec<[f64; 3]> = places.iter().map(|site| site.position).collect();
-    let length = span(&positions);
-    let lengths: Vec<f64> = places.iter().map(|site| if site.direction.is_rotation() { length } else { 1.0 }).collect();
-    let centre = Frame::of(sites, &rows).centre;
-    let of_nodes: Vec<[f64; 6]> = places.iter().map(|site| site.rigid_motion_about(centre)).collect();
+    let rows: Vec<usize> = (0..places.len()).filter(|row| places[*row].is_some()).collect();
+    let places: Vec<Option<Place>> = rows.iter().map(|row| places[*row]).collect();
+    let lengths = lengths(&places);
+    let site = |place: &Option<Place>| place.map(|(direction, position)| Site { position, direction });
+    let sites: Vec<Option<Site>> = places.iter().map(site).collect();
+    let centre = Frame::of(&sites, &(0..sites.len()).collect::<Vec<_>>()).centre;
+    let of_nodes: Vec<[f64; 6]> = sites.iter().flatten().map(|site| site.rigid_motion_about(centre)).collect();
     let of_nodes = basis(Mat::from_fn(rows.len(), 6, |i, j| of_nodes[i][j]).as_ref(), &lengths)?;
     let free = basis(Mat::from_fn(rows.len(), rigid.ncols(), |i, j| rigid[(rows[i], j)]).as_ref(), &lengths)?;
     Ok(beyond(free.as_ref(), of_nodes.as_ref())? > OTHER && beyond(of_nodes.as_ref(), free.as_ref())? > OTHER)

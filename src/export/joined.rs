@@ -14,8 +14,7 @@ use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members
 use crate::dense::unpacked;
 use crate::error::Result;
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
-use crate::input::strainless::{moved_alone, span};
-use crate::model::Site;
+use crate::input::strainless::{lengths, moved_alone};
 use crate::number::quantity;
 
 /// An assembly that leaves as one model.
@@ -53,23 +52,16 @@ impl Joined {
 
 /// Zeros where the stiffness holds nothing but rounding.
 fn clear_rounding(model: &mut JoinedModel) -> Result<()> {
-    let sites = sites(model);
-    let positions: Vec<[f64; 3]> = model.nodes.iter().map(|node| node.position).collect();
-    let length = span(&positions);
-    let turns = |site: &Option<Site>| site.is_some_and(|site| site.direction.is_rotation());
-    let lengths: Vec<f64> = sites.iter().map(|site| if turns(site) { length } else { 1.0 }).collect();
-    let alone = moved_alone(model.rigid.as_ref(), &lengths)?;
-    for row in alone {
+    for row in moved_alone(model.rigid.as_ref(), &lengths(&places(model)))? {
         model.stiffness.row_mut(row).fill(0.0);
         model.stiffness.col_mut(row).fill(0.0);
     }
     Ok(())
 }
 
-/// Where the rows of nodes are.
-fn sites(model: &JoinedModel) -> Vec<Option<Site>> {
-    let site = |(node, direction): (usize, Direction)| Site { position: model.nodes[node].position, direction };
-    model.rows.iter().map(|row| row.at.map(site)).collect()
+/// Direction and position of the rows of nodes.
+fn places(model: &JoinedModel) -> Vec<Option<(Direction, [f64; 3])>> {
+    model.rows.iter().map(|row| row.at.map(|(node, direction)| (direction, model.nodes[node].position))).collect()
 }
 
 /// A matrix for a file.
@@ -137,7 +129,7 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
     let without_nodes = if superelements().any(Superelement::has_rigid_amplitudes) {
         Some(MOVING_ROWS)
     } else {
-        is_held_and_gives_way(&sites(model), model.rigid.as_ref())?.then_some(HELD_ROWS)
+        is_held_and_gives_way(&places(model), model.rigid.as_ref())?.then_some(HELD_ROWS)
     };
     let mut remarks = remarks(assembly, &band);
     remarks.extend(without_nodes.map(str::to_owned));

@@ -13,9 +13,8 @@ use super::names::Names;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
-use crate::input::strainless::condensed_stiffness;
+use crate::input::strainless::{condensed_stiffness, places};
 use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
-use crate::model::Site;
 use crate::report::printable;
 
 /// The job that reduces the superelement in the file `path` as it is, TOML: its matrices, its nodes and its loads are read of that file. With
@@ -103,19 +102,11 @@ fn digits_of(superelement: &Superelement, stiffness: &Matrix) -> Result<Option<i
 
 /// Why a job does without the map and the nodes that there are.
 fn without_nodes(superelement: &Superelement) -> Result<Option<&'static str>> {
-    let metadata = superelement.metadata();
-    let site = |coordinate: &Coordinate| match coordinate {
-        Coordinate::Interface { node, direction } => {
-            Some(Site { position: metadata.interface_nodes[*node].position, direction: *direction })
-        }
-        _ => None,
-    };
     if superelement.has_rigid_amplitudes() {
         return Ok(Some(MOVING_ROWS));
     }
-    let sites: Vec<Option<Site>> = metadata.coordinates.iter().map(site).collect();
     let rigid = dense::unpacked(&superelement.tensors().rigid_body_modes);
-    Ok(is_held_and_gives_way(&sites, rigid.as_ref())?.then_some(HELD_ROWS))
+    Ok(is_held_and_gives_way(&places(superelement), rigid.as_ref())?.then_some(HELD_ROWS))
 }
 
 /// What the job says where amplitudes move.

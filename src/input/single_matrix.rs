@@ -70,13 +70,10 @@ impl SingleMatrix {
         };
         let mut notes = Vec::new();
         let (input, _) = common_rows::take_notes(labels.placed(read)?, &mut notes);
-        let own = || {
-            if layout == Layout::Superelement { superelement_file::dof_map(&source.file, allowance) } else { Ok(None) }
-        };
-        let dofs = match map.or_else(|| labels.dof_map()) {
-            Some(dofs) => Some(dofs),
-            None => own()?,
-        };
+        let mut dofs = map.or_else(|| labels.dof_map());
+        if dofs.is_none() && layout == Layout::Superelement {
+            dofs = superelement_file::dof_map(&source.file, allowance)?;
+        }
         let dofs = dofs.filter(|dofs| dofs.len() == input.matrix.rows());
         Ok(ReadSingle { input, layout, name: source.member, dofs, notes })
     }

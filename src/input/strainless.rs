@@ -8,7 +8,7 @@
 //! either sign, and is more than the last digit of anything next to it. A model made of K̂ has zeros in its place.
 
 use faer::{Mat, MatRef};
-use supel_runtime::{Coordinate, Matrix, Superelement};
+use supel_runtime::{Coordinate, Direction, Matrix, Superelement};
 
 use crate::dense;
 use crate::error::Result;
@@ -20,7 +20,7 @@ use crate::error::Result;
 pub(crate) fn condensed_stiffness(superelement: &Superelement) -> Result<Matrix> {
     let tensors = superelement.tensors();
     let rigid = dense::unpacked(&tensors.rigid_body_modes);
-    let alone = moved_alone(rigid.as_ref(), &lengths(superelement))?;
+    let alone = moved_alone(rigid.as_ref(), &lengths(&places(superelement)))?;
     let stiffness = &tensors.stiffness;
     Ok(Matrix::from_fn(stiffness.rows(), stiffness.cols(), |i, j| {
         if alone.contains(&i) || alone.contains(&j) { 0.0 } else { stiffness[(i, j)] }
@@ -66,8 +66,16 @@ pub(crate) fn basis(motions: MatRef<'_, f64>, lengths: &[f64]) -> Result<Mat<f64
     Ok(dense::product(unit.as_ref().subrows(0, motions.nrows()), scaled.as_ref()))
 }
 
-/// The largest distance of positions from their mean, which turns rotations into displacements; one where they are one place.
-pub(crate) fn span(positions: &[[f64; 3]]) -> f64 {
+/// What turns each row into a displacement: of a rotation the largest distance of the rows' places from their mean, or one where they are one
+/// place; one of all else.
+pub(crate) fn lengths(places: &[Option<(Direction, [f64; 3])>]) -> Vec<f64> {
+    let positions: Vec<[f64; 3]> = places.iter().flatten().map(|(_, position)| *position).collect();
+    let length = span(&positions);
+    let turns = |place: &Option<(Direction, [f64; 3])>| place.is_some_and(|(direction, _)| direction.is_rotation());
+    places.iter().map(|place| if turns(place) { length } else { 1.0 }).collect()
+}
+
+fn span(positions: &[[f64; 3]]) -> f64 {
     /// Distances relative to the farthest coordinate that are rounding of the mean.
     const ONE_PLACE: f64 = 1e-12;
     let count = positions.len().max(1) as f64;
@@ -78,14 +86,12 @@ pub(crate) fn span(positions: &[[f64; 3]]) -> f64 {
     if span > ONE_PLACE * far { span } else { 1.0 }
 }
 
-/// The length of each row: [`span`] of the interface nodes for rotations, one for all else.
-fn lengths(superelement: &Superelement) -> Vec<f64> {
+/// Direction and position of each coordinate that is one of an interface node.
+pub(crate) fn places(superelement: &Superelement) -> Vec<Option<(Direction, [f64; 3])>> {
     let metadata = superelement.metadata();
-    let positions: Vec<[f64; 3]> = metadata.interface_nodes.iter().map(|node| node.position).collect();
-    let length = span(&positions);
-    let of = |coordinate: &Coordinate| match coordinate {
-        Coordinate::Interface { direction, .. } if direction.is_rotation() => length,
-        _ => 1.0,
+    let place = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { node, direction } => Some((*direction, metadata.interface_nodes[*node].position)),
+        _ => None,
     };
-    metadata.coordinates.iter().map(of).collect()
+    metadata.coordinates.iter().map(place).collect()
 }

@@ -88,11 +88,8 @@ impl MatrixFormat for SuperelementFile {
         if matches!((name, source.role), (STIFFNESS, MatrixRole::Mass) | (MASS, MatrixRole::Stiffness)) {
             return Err(no_model(path, "has the other matrix of the two under this name", "exchange the two names"));
         }
-        let condensed = if name == STIFFNESS && source.role == MatrixRole::Stiffness {
-            Some(condensed_stiffness(&superelement)?)
-        } else {
-            None
-        };
+        let is_of_model = name == STIFFNESS && source.role == MatrixRole::Stiffness;
+        let condensed = is_of_model.then(|| condensed_stiffness(&superelement)).transpose()?;
         if condensed.as_ref().is_some_and(|stiffness| has_free_dof(&superelement, stiffness)) {
             return Err(no_model(path, NO_STIFFNESS, FREE_DOF));
         }
@@ -187,7 +184,7 @@ pub(super) fn load_vectors(path: &Path, allowance: &Allowance) -> Result<LoadVec
 const STIFFNESS: &str = "stiffness";
 const MASS: &str = "mass";
 
-/// What speaks against a superelement of which a dof has stiffness, but none that rounding leaves.
+/// What speaks against a superelement with a dof whose stiffness rounding may have left.
 pub(crate) const NO_STIFFNESS: &str = "has no stiffness but rounding at a dof of its interface";
 
 /// Whether a dof of the interface that does not move alone has a stiffness that is nothing next to the largest of its kind, translations or
@@ -222,12 +219,14 @@ fn no_model(path: &Path, found: &'static str, remedy: &'static str) -> Error {
 /// # Errors
 /// A file that cannot be read or is none; [`Error::FormatNotRead`] where it is packed.
 pub fn superelement(path: &Path) -> Result<(Superelement, Vec<u8>)> {
-    let failed = |error| Error::of_superelement(path, error);
+    let failed = |error| match FileStart::of(path) {
+        Ok(start) if is_packed_superelement(&start) => {
+            let (found, expected) = (PACKED_SUPERELEMENT, "a superelement as supel writes it");
+            Error::FormatNotRead { path: path.to_owned(), found, expected, advice: "unpack it" }
+        }
+        _ => Error::of_superelement(path, error),
+    };
     regular_file::open(path).map(drop)?;
-    if is_packed_superelement(&FileStart::of(path)?) {
-        let (found, expected) = (PACKED_SUPERELEMENT, "a superelement as supel writes it");
-        return Err(Error::FormatNotRead { path: path.to_owned(), found, expected, advice: "unpack it" });
-    }
     let bytes = supel_runtime::file_bytes(path).map_err(failed)?;
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
     Ok((superelement, bytes))

@@ -264,7 +264,7 @@ pub(super) fn by_shift<T>(
     solve: impl FnOnce(&Shifted<'_>) -> Result<T>,
 ) -> Result<(T, usize)> {
     let analysis = Analysis::new(problem.pencil())?;
-    let shifted = shifted(&analysis, problem, 0, &|row| partition.name_of(partition.dof_under(boundary, row)))?;
+    let shifted = shifted(&analysis, problem, &|row| partition.name_of(partition.dof_under(boundary, row)))?;
     Ok((solve(&shifted)?, shifted.n_factorisations))
 }
 

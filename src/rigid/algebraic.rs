@@ -41,7 +41,7 @@ pub(crate) struct ZeroModes {
 pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
     let analysis = Analysis::new(partition.pencil())?;
     let problem = partition.free_problem();
-    let found = shifted(&analysis, problem, 0, &|step| partition.name_of(step))?;
+    let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
     let bar_of_digits = bar_of_digits(partition, &found);
     // A soft mode looks like a mechanism where rounding of few digits is larger than its energy: more zero modes than bodies can have are
     // believed where that rounding is nothing compared with the first elastic mode.

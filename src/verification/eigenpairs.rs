@@ -194,7 +194,7 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
     let name = |i: usize| if i < n_r { rigid_name(i) } else { format!("mode {}", i - n_r + 1) };
     // x_iᵀMx_j of n terms is rounded by ε times their sizes, at most √(m_i m_j) with m = |x|ᵀ|M||x|, and so it is by rounding of
     // the modes themselves. A mode that M nearly lets pass has m ≫ 1, as one has that moves a mass of 10⁷ times the component only in
-    // coordinates. What that explains is a warning, up to a millionth, which is less than error bars show.
+    // coordinates. What that explains is a warning up to a millionth of a modal mass, half of which is what it is of a frequency.
     let limits = Limits { engineering: 1e-12, arithmetic: NOISE_FACTOR * f64::EPSILON * largest_terms, data: 0.0 };
     let explained = limits.capped(1e-6, 0.0).value();
     Check {

@@ -97,7 +97,7 @@ fn free_modes(pairs: &Path, pair: &Pair, n_modes: usize) -> Result<Found> {
     let (rigid, _) = rigid_body_modes(&partition)?;
     let analysis = partition.analysis()?;
     let problem = ModalProblem::of(partition.pencil(), partition.precision).deflating(rigid.deflated());
-    let found = shifted(&analysis, problem, 0, &|dof| partition.name_of(dof))?;
+    let found = shifted(&analysis, problem, &|dof| partition.name_of(dof))?;
     let request = ModeRequest { wanted: Wanted::Count(n_modes), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let modes = elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)?;
     let count = count_below(&analysis, partition.pencil(), modes.shift_above(0.5))?;

@@ -48,7 +48,7 @@ impl Component {
             elastic_modes(problem, &Factored::new(&factor, 0.0), request)
         } else {
             let problem = ModalProblem::of(pencil, precision).deflating(self.rigid.deflated());
-            let found = shifted(&self.analysis, problem, 0, &name).expect("a shift");
+            let found = shifted(&self.analysis, problem, &name).expect("a shift");
             elastic_modes(problem, &Factored::new(&found.factor, found.sigma), request)
         };
         let modes = modes.unwrap_or_else(|error| panic!("{eigensolver:?}: {error}"));

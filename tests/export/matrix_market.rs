@@ -18,7 +18,8 @@ fn numbers(line: &str) -> Vec<f64> {
     line.split(' ').map(|number| number.parse().expect("a number")).collect()
 }
 
-fn matrix(place: &Place, name: &str) -> Vec<Vec<f64>> {
+/// A matrix of an export, row by row.
+pub(super) fn matrix(place: &Place, name: &str) -> Vec<Vec<f64>> {
     let banner = String::from_utf8(place.bytes(name)).expect("text").lines().next().expect("a banner").to_owned();
     let lines = lines(place, name);
     let sizes: Vec<usize> = numbers(&lines[0]).into_iter().map(|size| size as usize).collect();

@@ -28,8 +28,8 @@ impl<'a> Full<'a> {
     /// # Errors
     /// K − σM is not definite; the eigensolver fails.
     pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis, given: &RigidBodyModes) -> Result<Self> {
-        let problem = partition.free_problem();
-        let found = shifted(analysis, problem, by_coordinates(given), &|dof| partition.name_of(dof))?;
+        let problem = partition.free_problem().knowing_free(by_coordinates(given));
+        let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
         let n_zero = confirmed(&found, given);
         let shapes = found.lowest.shapes.as_ref().subcols(0, n_zero).to_owned();
         let first = found.lowest.lambda.get(n_zero).copied().or(found.lowest.next).unwrap_or(1.0);

@@ -94,7 +94,7 @@ impl Supported {
             }
         }
         let analysis = Analysis::new(pencil)?;
-        let shifted = shifted(&analysis, problem, 0, &|dof| evidence.partition.name_of(dof))?;
+        let shifted = shifted(&analysis, problem, &|dof| evidence.partition.name_of(dof))?;
         elastic_modes(problem, &Factored::new(&shifted.factor, shifted.sigma), request)
     }
 
