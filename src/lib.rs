@@ -77,7 +77,7 @@
 //!
 //! ```text
 //! number · dofs · error · unfinished · heap · tally · foreign_exit · regular_file · linked · random · dense · sparse
-//! factor · eigen
+//! cache · factor · eigen
 //! job · plan · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping
 //! memory_forecast · size_forecast · cost_forecast · verification · audit · certification · assembly
 //! report · output · outcome · examination · line · looks · conversion · export · recovery · cli
@@ -85,8 +85,9 @@
 //!
 //! # Invariants
 //!
-//! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`report`] reads the
-//!    clock, [`cli`] and the program have the terminal, and [`heap`] writes the last line of a run that finds no memory.
+//! 1. Of the stages only [`input`] and [`output`] touch files. Around them [`job`] reads its document, [`cache`] keeps results for
+//!    later runs and changes none, [`report`] reads the clock, [`cli`] and the program have the terminal, and [`heap`] writes the
+//!    last line of a run that finds no memory.
 //! 2. [`job::Method`] alone decides what a reduction method means: the boundary under which its modes are sought or the file that
 //!    has them, whether it has inertia relief, what its mass sees, and what is proved of it. No later stage asks which method it is:
 //!    modes, basis and verification know the boundary, basis and audit whether there is inertia relief, reduction and audit what its
@@ -100,6 +101,7 @@
 pub mod assembly;
 pub mod audit;
 pub mod basis;
+pub mod cache;
 pub mod certification;
 pub mod cli;
 pub mod constraint;

@@ -11,7 +11,7 @@ use crate::input::{self, Allowance, InputFacts};
 use crate::job::ModeSelection;
 use crate::memory_forecast::{self, Resources};
 use crate::model::{self, Model};
-use crate::modes::{self, Component, ModeSource, Retained, Search, StaticSet};
+use crate::modes::{self, Component, Retained, Search, StaticSet};
 use crate::outcome::Outcome;
 use crate::output::{self, Results};
 use crate::partition::{self, CarriedMatrix, Expansion, Loads, Partition, Quantities};
@@ -45,7 +45,7 @@ pub(crate) fn prepared(
 
     observer.stage("check");
     facts.notes.extend(model::add_masses(&mut read, &job.added_masses)?);
-    let model = Model::new(read)?;
+    let model = Model { cache: resources.cache.cloned(), ..Model::new(read)? };
 
     observer.stage("coordinates");
     let tied = partition::nodes_of_patches(&model, &job.interfaces);
@@ -216,7 +216,7 @@ fn with_reduction<T>(
     forecast.iter().for_each(|warning| observer.warned(warning));
     let at_once = memory_forecast::slices_within_memory(analysis, partition, plan, resources, size)?;
     let found = match plan.modes() {
-        Modes::Computed => factor.vouched(search.with_slices_at_once(at_once).lowest(SEED))?,
+        Modes::Computed => search.with_slices_at_once(at_once).lowest_or_earlier(SEED)?,
         Modes::NotAsked => search.nothing(),
     };
 

@@ -1,5 +1,6 @@
 //! The memory a run will need, known before any number is computed.
 
+use crate::cache::Cache;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Storage};
 use crate::job::{Boundary, Certify, Job, ModeSelection, Precision};
@@ -31,14 +32,16 @@ const COLUMNS_OF_A_MODE: u64 = 4;
 /// Columns of any search.
 const COLUMNS_OF_A_SEARCH: u64 = 64;
 
-/// What the machine has. It decides whether a run starts and changes no result.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Resources {
+/// What a run may use. It decides whether a run starts and how long it takes, and changes no result.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Resources<'a> {
     /// Memory the run may use, in bytes; `None` sets no limit. `run.memory_gib` of the job takes precedence.
     pub memory_bytes: Option<u64>,
+    /// Results of earlier runs, which change no result of this one.
+    pub cache: Option<&'a Cache>,
 }
 
-impl Resources {
+impl Resources<'_> {
     /// Memory that a job may use, in bytes: as it says itself, or what there is.
     pub fn allowed(self, job: &Job) -> Option<u64> {
         job.run.memory_gib.map(bytes_of_gib).or(self.memory_bytes)

@@ -18,6 +18,8 @@ class OwnRun:
     work: dict
     body: dict
     tensors: dict
+    # What was taken from a cache and kept in it.
+    cache: dict
 
     def is_verified(self):
         return self.body.get("verdict") in ("pass", "warn")
@@ -35,10 +37,11 @@ def reduce(supel, folder, job, threads, timeout, *flags):
     command += map(str, flags)
     run = process.run(command, folder, threads, timeout)
     if not result.exists():
-        return OwnRun(run, {}, {}, {}, {})
+        return OwnRun(run, {}, {}, {}, {}, {})
     report = json.loads((folder / "run.report.json").read_text())
     stages = {stage["name"]: stage["seconds"] for stage in report["run"]["stages"]}
-    return OwnRun(run, stages, report["run"]["work"], report["body"], superelement.read(result))
+    facts = report["run"]
+    return OwnRun(run, stages, facts["work"], report["body"], superelement.read(result), facts.get("cache", {}))
 
 
 def job_with(folder, name, extra):

@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Makes the diagrams of errors, sizes and run times, as SVG and CSV, by one command.
 
-    benches/diagrams/run.py [A B C D E G H S] [--family bulky] [--dofs 10000] [--threads 2]
+    benches/diagrams/run.py [A B C D E F G H S] [--family bulky] [--dofs 10000] [--threads 2]
 
 A eigen stage against eigenvalue error; B error under foreign boundaries against size; C whole job against the delivered
-frequency response; D error over eps * kappa; E growth with n; G accepted, promised and found errors; H couplings of a hole
-against the mesh; S a spinning beam.
+frequency response; D error over eps * kappa; E growth with n; F what scenes and a cache save; G accepted, promised and
+found errors; H couplings of a hole against the mesh; S a spinning beam.
 
 Needs a release build of supel; parts are generated and kept in --work, Python packages come into an environment of its own
-(PEERS_VENV). --family, --dofs, --method and --repeats are of A, C and E: without options a short run on small parts; the
-documents' series is `--dofs 89000` for A and C, and
+(PEERS_VENV). --family, --dofs, --method and --repeats are of A, C, E and F: without options a short run on small parts; the
+documents' series is `--dofs 89000` for A and C, `F --family slender --dofs 89000 --repeats 3`, and
 `E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`. B and G leave out what needs SUPEL_CORPUS
 where that is absent, H needs CalculiX.
 """
@@ -25,10 +25,10 @@ from harness import environment, machine
 
 environment.enter()
 
-from diagrams import accepted, accuracy, delivered, eigen, foreign, hole, scaling, spin
+from diagrams import accepted, accuracy, delivered, eigen, foreign, hole, scaling, scenes, spin
 
 FAMILIES = ("bulky", "slender", "lattice")
-LETTERS = ("A", "B", "C", "D", "E", "G", "H", "S")
+LETTERS = ("A", "B", "C", "D", "E", "F", "G", "H", "S")
 
 
 def main():
@@ -38,7 +38,7 @@ def main():
     parser.add_argument("--dofs", action="append", type=int, help="default: 10000; for E 2500, 5000, 10000")
     parser.add_argument("--method", choices=["craig-bampton", "herting"], default="herting", help="of A and E")
     parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--repeats", type=int, default=1, help="of E; medians are drawn")
+    parser.add_argument("--repeats", type=int, default=1, help="of E and F; medians are drawn, of F the fastest")
     parser.add_argument("--timeout", type=float, default=3600.0, help="seconds for one process")
     parser.add_argument("--supel", default=str(machine.ROOT / "target/release/supel"))
     parser.add_argument("--work", type=pathlib.Path, default=machine.ROOT / "target/parts", help="where parts are kept")
@@ -55,6 +55,8 @@ def main():
                 eigen.draw(settings, family, dofs)
             if "C" in letters:
                 delivered.draw(settings, family, dofs)
+            if "F" in letters:
+                scenes.draw(settings, family, dofs)
         if "E" in letters:
             scaling.draw(settings, family, settings.dofs or [2500, 5000, 10000])
     for letter, diagram in (("B", foreign), ("D", accuracy), ("G", accepted), ("H", hole), ("S", spin)):

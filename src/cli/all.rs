@@ -143,7 +143,7 @@ fn up_to_date_row(member: &Member) -> Option<ComponentRow> {
 /// What a job is going to hold at once, in bytes; nothing where its files cannot be read, which its run finds out as well.
 fn forecast(member: &Member, budget: Option<u64>, pipeline: Pipeline) -> u64 {
     let Some(command) = member.command.as_deref() else { return 0 };
-    let resources = Resources { memory_bytes: budget };
+    let resources = Resources { memory_bytes: budget, cache: None };
     if rehearsal::rehearse(&command.job, &[], resources.allowed(&command.job)).is_err() {
         return 0;
     }
@@ -194,7 +194,7 @@ fn joined_parts(rows: &[ComponentRow], budget: Option<u64>) -> Result<Assembly> 
         components.push((row.name.clone(), read));
     }
     let n = components.iter().map(|(_, superelement)| superelement.n_coordinates()).sum();
-    assembly::within_memory(n, Resources { memory_bytes: budget })?;
+    assembly::within_memory(n, Resources { memory_bytes: budget, cache: None })?;
     let components = components.into_iter().map(|(name, read)| Component::new(name, read)).collect::<Result<_>>()?;
     Assembly::new(components)
 }

@@ -8,6 +8,7 @@ use clap::Parser;
 
 use super::assembly_command::joined;
 use super::assembly_file::AssemblyFile;
+use super::cache_choice::CacheChoice;
 use super::flags::{CommandLine, OutputFlags, RunFlags, Typed};
 use super::job_folder;
 use super::judging::Answer;
@@ -86,6 +87,7 @@ impl Member {
         let passed_on = passed_on.into_iter().filter(|(_, is_given)| *is_given).map(|(flag, _)| flag);
         let mut words: Vec<OsString> = vec!["reduce".into(), document.clone().into(), "--json".into()];
         words.extend(passed_on.map(OsString::from));
+        words.extend(CacheChoice::words(run));
         let command = checked(&words);
         Self { name, document, words, command }
     }

@@ -29,7 +29,7 @@ impl Files {
             read.push((name.clone(), superelement));
         }
         let n = read.iter().map(|(_, superelement)| superelement.n_coordinates()).sum();
-        assembly::within_memory(n, Resources { memory_bytes: memory::available_bytes() })?;
+        assembly::within_memory(n, Resources { memory_bytes: memory::available_bytes(), cache: None })?;
         Ok(Self { read, digests })
     }
 

@@ -31,7 +31,7 @@ pub(super) fn run(command: &CertifyCommand, pipeline: Pipeline, terminal: &mut T
     inputs.extend(results.iter().chain(of_matrices).map(|path| ("the result", input::file_of(path))));
     let own = OwnFiles::of(&inputs, &outputs(command))?;
     refuse_unwritable(&own)?;
-    let resources = Resources { memory_bytes: memory::available_bytes() };
+    let resources = Resources { memory_bytes: memory::available_bytes(), cache: None };
     let rehearsed = match terminal.program {
         Program::Supel => {
             let job = Job { matrices, ..job.clone() };

@@ -47,7 +47,7 @@ pub(super) fn run(command: &DoctorCommand, pipeline: Pipeline, terminal: &mut Te
 /// What is found of a model.
 pub(super) fn examined(subject: &SubjectCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<Examined> {
     let SubjectCommand { job, threads } = subject;
-    let resources = Resources { memory_bytes: memory::available_bytes() };
+    let resources = Resources { memory_bytes: memory::available_bytes(), cache: None };
     let rehearsed = match terminal.program {
         Program::Supel => rehearsal::rehearse(job, &[], resources.allowed(job))?,
         Program::Other => Rehearsed::Nothing,

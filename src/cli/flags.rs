@@ -210,6 +210,13 @@ pub(super) struct RunFlags {
     /// Reduce even where superelement and reports are up to date
     #[arg(long)]
     pub(super) force: bool,
+    /// Folder that keeps factors, counts and modes for later runs, which change no result [default: that of the environment variable
+    /// SUPEL_CACHE, or none]
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) cache: Option<PathBuf>,
+    /// How large that folder may become, in GiB [default: that of SUPEL_CACHE_GIB, or 10]
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub(super) cache_gib: Option<f64>,
     /// Memory that a run of several may plan with, in bytes; it ends with the process that started it
     #[arg(long, hide = true, value_name = "N")]
     pub(super) available_bytes: Option<u64>,

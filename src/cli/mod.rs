@@ -17,6 +17,7 @@ mod answer;
 mod assembled;
 mod assembly_command;
 mod assembly_file;
+mod cache_choice;
 mod calibration;
 mod certify;
 mod certify_command;

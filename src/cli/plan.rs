@@ -14,7 +14,7 @@ use crate::report::PlanReport;
 
 pub(super) fn run(command: &PlanCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
     command.remark.iter().for_each(|remark| terminal.complain(remark));
-    let resources = Resources { memory_bytes: memory::available_bytes() };
+    let resources = Resources { memory_bytes: memory::available_bytes(), cache: None };
     let needed = Plan::of(&command.job);
     let rehearsed = match terminal.program {
         Program::Supel => rehearsal::rehearse(needed.job(), &[], resources.allowed(&command.job))?,

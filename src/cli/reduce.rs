@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use supel_runtime::{StagedFile, Superelement};
 
 use super::answer::{Program, Terminal};
+use super::cache_choice::CacheChoice;
 use super::exit_code::ExitCode;
 use super::judging::{Answer, Strictness};
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
@@ -18,6 +19,7 @@ use super::unverified::Unverified;
 use super::up_to_date::{self, MadeEarlier, Repetition, Stale};
 use super::{memory, overwriting, process};
 use crate::audit::flaw;
+use crate::cache::Cache;
 use crate::error::{Error, Result};
 use crate::memory_forecast::Resources;
 use crate::outcome::Outcome;
@@ -44,7 +46,9 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     if command.available_bytes.is_some() && terminal.program == Program::Supel {
         process::end_with_parent()?;
     }
-    let resources = Resources { memory_bytes: command.available_bytes.or_else(memory::available_bytes) };
+    let cache = command.cache.as_ref().map(CacheChoice::open).transpose()?;
+    let memory_bytes = command.available_bytes.or_else(memory::available_bytes);
+    let resources = Resources { memory_bytes, cache: cache.as_ref() };
     let rehearsed = match terminal.program {
         Program::Supel => rehearsal::rehearse(&command.job, &[], resources.allowed(&command.job))?,
         Program::Other => Rehearsed::Nothing,
@@ -58,6 +62,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     let Outcome { superelement, mut report } = outcome.map_err(|error| rehearsed.judge(error))?;
     clock.stage("write");
     report.run.n_threads = command.threads.used;
+    report.run.cache = cache.as_ref().map(Cache::tally);
     let (code, superelement) = stage_superelement((command, &own), &superelement, &mut report)?;
     report.run.stages = clock.finish();
     drop(stage_line);
@@ -70,6 +75,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
         Answer::Json => Some(report.to_json()?),
         Answer::Nothing => None,
     };
+    complaints.extend(cache_complaints(command, &report));
     complaints.splice(0..0, explanation(command, code));
     if command.answer == Answer::Nothing {
         complaints.splice(0..0, unmet(&report.body.checks, &report.body.warnings, command.strictness));
@@ -78,6 +84,12 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     answer.iter().for_each(|answer| terminal.answer(answer));
     complaints.iter().for_each(|complaint| terminal.complain(complaint));
     Ok(code)
+}
+
+/// What went wrong with the cache of the run.
+fn cache_complaints(command: &ReduceCommand, report: &Report) -> Vec<String> {
+    let tallied = command.cache.as_ref().zip(report.run.cache.as_ref());
+    tallied.map_or_else(Vec::new, |(choice, tally)| choice.complaints(tally))
 }
 
 /// What the job asks for, where an earlier run has made all of it and nothing has changed since.

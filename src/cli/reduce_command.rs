@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::cache_choice::CacheChoice;
 use super::flags::{ModelFlags, OutputFlags, ReduceFlags, ReductionFlags};
 use super::job_document;
 use super::judging::{Answer, Strictness};
@@ -27,6 +28,7 @@ pub(super) struct ReduceCommand {
     pub(super) unverified: Unverified,
     pub(super) strictness: Strictness,
     pub(super) repetition: Repetition,
+    pub(super) cache: Option<CacheChoice>,
     /// Memory of a run that another one has started, in bytes.
     pub(super) available_bytes: Option<u64>,
     /// From which folder the paths of the document count, and what the flags did to its interfaces and held dofs.
@@ -69,6 +71,7 @@ impl ReduceCommand {
             unverified,
             strictness,
             repetition: Repetition::from(run.force),
+            cache: CacheChoice::of(&run)?,
             available_bytes: run.available_bytes,
             remarks,
         })

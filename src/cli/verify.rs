@@ -28,7 +28,7 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
         Rerun::Compared => Some(job_to_run(command, &superelement)?),
     };
     let (rerun, remark) = rerun.map_or((None, None), |(job, remark)| (Some(job), remark));
-    let resources = Resources { memory_bytes: memory::available_bytes() };
+    let resources = Resources { memory_bytes: memory::available_bytes(), cache: None };
     let to_read = command.job.as_ref().or(rerun.as_ref());
     let rehearsed = match to_read.filter(|_| terminal.program == Program::Supel) {
         Some(job) => rehearsal::rehearse(job, &[], resources.allowed(job))?,

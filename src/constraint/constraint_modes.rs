@@ -6,6 +6,7 @@ use super::attachment::Attachment;
 use super::rigid_correction::{Carried, defect, left_inverse, left_inverse_by, left_inverse_of, rigid_error};
 use super::schur_complement::{condensed_stiffness, sampled_cancellation};
 use super::static_modes::{LowRank, StaticModes};
+use crate::cache::Key;
 use crate::dense;
 use crate::factor::Cholesky;
 use crate::partition::Partition;
@@ -30,6 +31,14 @@ pub struct ConstraintModes<'a> {
     pub raw_rigid_error: f64,
     /// What they are made of where the interface leaves rigid-body motions free: Ψ_R then, and no constraint modes.
     pub attachment: Option<Attachment>,
+}
+
+impl ConstraintModes<'_> {
+    /// Goes on with the key of what is made of them and of the partition.
+    pub(crate) fn key(&self, key: Key) -> Key {
+        // Operators take them as they are stored, or make them again by solves.
+        key.text(self.modes.form()).shown(&self.attachment.is_some()).columns(self.stiffness.as_ref())
+    }
 }
 
 /// Ψ_S = −K_II⁻¹ K_IB (23), then Ψ_S ← Ψ_S + (U_I − Ψ_S U_B) U_B⁺.

@@ -18,7 +18,15 @@ pub fn interior_factor<'a>(
     (storage, rank): (Storage, Option<InterfaceRank>),
 ) -> Result<Cholesky<'a>> {
     let sigma = shift_of_factor(partition, rigid, rank);
-    let factor = Cholesky::kept(analysis, (partition.pencil(), sigma), storage, &|dof| partition.name_of(dof));
+    let (shifted, name) = ((partition.pencil(), sigma), |dof| partition.name_of(dof));
+    let factor = match partition.cache() {
+        None => Cholesky::kept(analysis, shifted, storage, &name),
+        Some(cache) => {
+            let key = if sigma == 0.0 { Partition::key_of_stiffness } else { Partition::key_of_matrices };
+            let key = key(partition, "factor").shown(&storage).numbers(&[sigma]);
+            Cholesky::recalled((cache, &key), analysis, shifted, storage, &name)
+        }
+    };
     factor.map_err(|error| refused(error, analysis, partition, rigid))
 }
 

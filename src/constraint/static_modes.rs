@@ -67,6 +67,15 @@ impl<'a> StaticModes<'a> {
         self.stiffness.as_ref().map(|stiffness| stiffness.as_ref().as_ref())
     }
 
+    /// How they are kept.
+    pub(super) fn form(&self) -> &'static str {
+        match self.form {
+            Form::Stored(_) => "stored",
+            Form::ByFactor { .. } => "by factor",
+            Form::Carried(_) => "carried",
+        }
+    }
+
     /// n_I.
     pub fn n_internal(&self) -> usize {
         match &self.form {

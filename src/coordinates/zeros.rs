@@ -4,6 +4,7 @@ use faer::Mat;
 
 use super::doubt::Doubt;
 use super::motions::{Body, Motions};
+use crate::cache::recalled;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::factor::count_below;
@@ -43,8 +44,9 @@ pub(super) fn whole(motions: &Motions<'_>) -> Result<Partition> {
 /// Eigenvalues of the pencil that are zero as far as a Sturm count tells, or `None` where the shift meets one; `noise` is
 /// what rounding of the data can make of a zero one.
 pub(super) fn counted(whole: &Partition, noise: f64) -> Result<Option<usize>> {
-    let analysis = whole.analysis()?;
-    match count_below(&analysis, whole.pencil(), ROUNDINGS * noise) {
+    let sigma = ROUNDINGS * noise;
+    let key = || whole.key_of_matrices("count").numbers(&[sigma]);
+    match recalled(whole.cache(), key, || count_below(&whole.analysis()?, whole.pencil(), sigma)) {
         Ok(count) if count.is_off_clamped() => Ok(Some(count.free)),
         Ok(_) | Err(Error::SturmPivot) => Ok(None),
         Err(error) => Err(error),

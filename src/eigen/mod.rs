@@ -23,6 +23,7 @@ mod operator;
 mod orthogonalisation;
 mod problem;
 mod quality;
+mod recorded;
 mod ritz;
 mod shifted;
 mod spectral;

@@ -1,6 +1,7 @@
 //! The Cholesky factor of a definite matrix.
 
 mod backward_error;
+mod recalled;
 
 use faer::{Mat, MatMut, MatRef};
 
@@ -65,9 +66,7 @@ impl<'a> Cholesky<'a> {
         if storage == Storage::Double {
             return Self::new(analysis, pencil, sigma, name);
         }
-        let diagonals = diagonal(pencil.stiffness).into_iter().zip(diagonal(pencil.mass));
-        // Entries of L are then at most one or two, and pivots at least a root of what is refused: far from the ends of the range.
-        let scale: Vec<f64> = diagonals.map(|(k, m)| dense::power_of_two_root((k - sigma * m).abs())).collect();
+        let scale = scale_of(pencil, sigma);
         let matrix = Shifted { pencil, sigma, scale: Some(&scale), n_border: analysis.n_border() };
         let (numbers, smallest_pivot_ratio) = factored(analysis, &matrix, name)?;
         let kept = Kept::Single(Refined::new(analysis, (pencil, sigma), scale, numbers));
@@ -127,6 +126,13 @@ impl Cholesky<'_> {
             Kept::Single(refined) => refined.work().map(Some),
         }
     }
+}
+
+/// D of D (K − σM) D. Entries of L are then at most one or two, and pivots at least a root of what is refused: far from the ends of the range
+/// of single precision.
+fn scale_of(pencil: Pencil<'_>, sigma: f64) -> Vec<f64> {
+    let diagonals = diagonal(pencil.stiffness).into_iter().zip(diagonal(pencil.mass));
+    diagonals.map(|(k, m)| dense::power_of_two_root((k - sigma * m).abs())).collect()
 }
 
 /// L of D (K − σM) D, and the smallest ratio of a pivot to its diagonal entry.

@@ -1,10 +1,10 @@
 //! How the entries of a factor are kept.
 
-use bytemuck::Zeroable;
+use crate::cache::Number;
 
 /// A number as it is kept in a factor: in double precision, or rounded to single. Elimination and solves compute in double
 /// precision either way.
-pub(super) trait Entry: Zeroable + Default + Copy + Send + Sync + Into<f64> + std::fmt::Debug + 'static {
+pub(super) trait Entry: Number + Default + Send + Sync + Into<f64> + std::fmt::Debug {
     /// The number nearest to a double.
     fn of(value: f64) -> Self;
 }

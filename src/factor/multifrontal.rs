@@ -8,6 +8,7 @@
 //! the border is the Schur complement.
 
 mod assembly;
+mod recorded;
 
 use std::sync::{Mutex, OnceLock};
 

@@ -99,6 +99,11 @@ impl<'a> Refined<'a> {
         Self { analysis, pencil, sigma, scale, numbers, work: Mutex::default(), shortfall: OnceLock::new() }
     }
 
+    /// L̃.
+    pub(super) fn numbers(&self) -> &Numbers<f32> {
+        &self.numbers
+    }
+
     /// X ← A⁻¹ X, n rows: the border is held.
     pub(super) fn solve_in_place(&self, mut block: MatMut<'_, f64>) {
         for start in (0..block.ncols()).step_by(TILE) {

@@ -9,6 +9,7 @@ use faer::{Mat, MatMut};
 use super::Analysis;
 use super::indefinite::Indefinite;
 use super::multifrontal::Keep;
+use crate::cache::{Kind, Reader, Recorded, Writer};
 use crate::dense;
 use crate::error::{Error, Result, held_words};
 use crate::sparse::Pencil;
@@ -50,6 +51,22 @@ impl InertiaCount {
     /// Whether σ lies off the free eigenvalues as far as S(σ) tells.
     pub fn is_off_free(&self) -> bool {
         self.schur_gap > SCHUR_GAP && self.condensed_gap > CONDENSED_GAP
+    }
+}
+
+impl Recorded for InertiaCount {
+    const KIND: Kind = Kind::Count;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        let Self { sigma, clamped, free, growth, pivot_gap, schur_gap, condensed_gap } = *self;
+        to.counts(&[clamped, free])?;
+        to.array(&[sigma, growth, pivot_gap, schur_gap, condensed_gap])
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let [clamped, free] = from.counts()?[..] else { return None };
+        let [sigma, growth, pivot_gap, schur_gap, condensed_gap] = from.array()?[..] else { return None };
+        Some(Self { sigma, clamped, free, growth, pivot_gap, schur_gap, condensed_gap })
     }
 }
 

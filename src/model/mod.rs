@@ -18,6 +18,7 @@ mod weight;
 
 use std::collections::HashSet;
 
+use crate::cache::Cache;
 use crate::dofs::{Dof, DofMap, FileRows, Nodes, RowNames};
 use crate::error::{Error, Result};
 use crate::input::{ConstraintRows, Input, MatrixInput};
@@ -62,6 +63,8 @@ pub struct Model {
     pub supports: Supports,
     /// What was found and mended, in the order it was found.
     pub findings: Vec<Finding>,
+    /// Results of earlier runs on its matrices; none unless the caller has some.
+    pub cache: Option<Cache>,
 }
 
 /// What is remembered of a model after its matrices have gone into the partition.
@@ -153,6 +156,7 @@ impl Model {
             fit,
             supports,
             findings,
+            cache: None,
         })
     }
 

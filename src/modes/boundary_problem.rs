@@ -3,6 +3,7 @@
 use faer::{MatMut, MatRef};
 
 use super::Component;
+use crate::cache::recalled;
 use crate::constraint::{FreeAtZero, FreeStatics, RefinedAtZero};
 use crate::eigen::ElasticCount;
 use crate::eigen::Interval;
@@ -171,7 +172,10 @@ impl<'a> BoundaryProblem<'a> {
     pub(super) fn count_at(&self, sigma: f64) -> Result<(Result<ElasticCount>, bool)> {
         self.refuse_massless()?;
         let Component { partition, analysis, .. } = self.component;
-        let count = count_below_freeing(analysis, partition.pencil(), sigma, partition.free_under(self.boundary))?;
+        let free = partition.free_under(self.boundary);
+        let key = || partition.key_of_matrices("count").numbers(&[sigma]).shown(&free);
+        let counted = || count_below_freeing(analysis, partition.pencil(), sigma, free);
+        let count = recalled(partition.cache(), key, counted)?;
         Ok((self.elastic(count), self.is_off(count)))
     }
 

@@ -1,5 +1,6 @@
 //! A component as the modes see it: what they are computed from.
 
+use crate::cache::Key;
 use crate::constraint::ConstraintModes;
 use crate::factor::{Analysis, Cholesky};
 use crate::job::{Boundary, ReductionJob};
@@ -38,6 +39,13 @@ impl Component<'_> {
     /// The boundary that the modes of a job are computed under.
     pub fn boundary(&self, job: &ReductionJob) -> Boundary {
         if self.is_modal() { Boundary::FreeInterface } else { self.partition.boundary(job.method.boundary()) }
+    }
+
+    /// The key of what a function makes of the component.
+    pub(crate) fn key(&self, function: &str) -> Key {
+        let Self { partition, analysis: _, factor, rigid, constraint } = self;
+        let key = rigid.key(partition.key(function)).shown(&factor.storage());
+        constraint.iter().fold(key, |key, constraint| constraint.key(key))
     }
 
     /// True where nothing holds the component and nothing is to be condensed: its own modes are the model.

@@ -8,10 +8,12 @@ use super::boundary_problem::BoundaryProblem;
 use super::counts::Counts;
 use super::slices::{Band, ModeSource, SLICE, search_between};
 use super::{Component, dense_spectrum, indefinite};
+use crate::cache::{Key, recalled};
 use crate::eigen::ElasticCount;
 use crate::eigen::{CLUSTER_GAP, ModeRequest, Modes, ShiftInvert, elastic_modes};
 use crate::eigen::{EigenWork, Interval, Wanted, are_clustered, is_above};
 use crate::error::{Error, Result};
+use crate::factor::Storage;
 use crate::job::{Boundary, Eigensolver, ModeSelection, ReductionJob};
 use crate::partition::Partition;
 
@@ -78,6 +80,30 @@ impl<'a> Search<'a> {
             Wanted::Count(count) => Some(count),
             Wanted::UpTo(_) => self.edge.map(|edge| edge.n_elastic),
         }
+    }
+
+    /// The lowest modes by this search, or what an earlier run found by the same one.
+    ///
+    /// # Errors
+    /// Those of [`ModeSource::lowest`]; a solve that did not come down to rounding.
+    pub fn lowest_or_earlier(&self, seed: u64) -> Result<Modes> {
+        let factor = self.problem.component.factor;
+        // What refinement took of a factor in single precision is part of the report, and nobody knows it without the solves.
+        let cache = self.problem.component.partition.cache().filter(|_| factor.storage() == Storage::Double);
+        recalled(cache, || self.key(seed), || factor.vouched(self.lowest(seed)))
+    }
+
+    fn key(&self, seed: u64) -> Key {
+        let Self {
+            problem: BoundaryProblem { component, boundary },
+            wanted,
+            n_asked: _,
+            eigensolver,
+            edge,
+            at_once: _,
+        } = self;
+        let key = component.key("modes").shown(&(boundary, wanted, eigensolver));
+        key.shown(&edge.map(|edge| edge.n_elastic)).numbers(&[seed])
     }
 
     /// No modes, where none are looked for.

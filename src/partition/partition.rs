@@ -14,6 +14,7 @@ use crate::sparse::Pencil;
 use crate::sparse::Precision;
 use crate::sparse::{Leading, SparseMatrix};
 
+use super::earlier::Earlier;
 use super::expansion::Expansion;
 use super::follower::Follower;
 use super::further_matrices::CarriedMatrix;
@@ -90,6 +91,8 @@ pub struct Partition {
     pub(super) mass_patches: Option<PatchEntries>,
     /// The entries of M by their sizes, once somebody asks.
     pub(super) mass_roundings: OnceLock<Roundings>,
+    /// What earlier runs have computed of the same matrices; none where the model has no cache.
+    pub(super) earlier: Option<Earlier>,
 }
 
 /// The matrices of a partition, made from those of the model, which are gone then.
@@ -217,6 +220,7 @@ impl Partition {
             roundings: OnceLock::new(),
             mass_patches: carried.mass_patches,
             mass_roundings: OnceLock::new(),
+            earlier: model.cache.as_ref().map(Earlier::new),
         })
     }
 

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::transformation::{DofOrigin, Transformation};
 use super::transformation_row::TransformationRow;
+use crate::cache::Key;
 use crate::sparse::{Rounding, SparseMatrix, diagonal, ends};
 
 /// Entries of a unit of parallel work, at least: fixed, so that sums never depend on the number of threads.
@@ -16,6 +17,17 @@ pub(super) struct PatchEntries {
     pub(super) rows: Vec<Box<[(u32, f64)]>>,
     /// Entries with at least one such row, one of each pair: places in the extended motion, and the value.
     pub(super) entries: Vec<Entry>,
+}
+
+impl PatchEntries {
+    /// Goes on with a key.
+    pub(super) fn key(&self, key: Key) -> Key {
+        let Self { rows, entries } = self;
+        let key = rows.iter().fold(key.numbers(&[rows.len()]), |key, row| key.shown(row));
+        let places: Vec<u32> = entries.iter().flat_map(|entry| [entry.row, entry.col]).collect();
+        let values: Vec<f64> = entries.iter().map(|entry| entry.value).collect();
+        key.numbers(&places).numbers(&values)
+    }
 }
 
 /// An entry of the upper triangle: its place in the motion extended by the rows of patches, and its value, or what stands for the size

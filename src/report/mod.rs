@@ -34,6 +34,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+use crate::cache;
 use crate::error::Warning;
 use crate::input::Digits;
 use crate::number;
@@ -257,9 +258,12 @@ pub struct RunFacts {
     pub superelement: Option<PathBuf>,
     /// The report file.
     pub report: Option<PathBuf>,
+    /// What the run had of its cache; absent where it had none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cache: Option<cache::Tally>,
 }
 
-/// What was done, counted.
+/// What was done, counted; where results are those of earlier runs, what was done for these.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct WorkCounters {
     /// Numeric factorisations.

@@ -1,9 +1,12 @@
 //! The words and figures that the summary and the page have in common.
 
+use std::collections::BTreeMap;
+
 use super::{
     ExpansionReport, FacesReport, InterfacePosition, InterfaceReport, LoadReport, ModeKind, ModelReport,
     PositionOrigin, ReductionReport, ReportBody, ResidualVector,
 };
+use crate::cache::{Kind, Tally};
 use crate::job::Eigensolver;
 pub(super) use crate::job::boundary_in_words as boundary;
 use crate::number::{self, counted};
@@ -27,6 +30,20 @@ pub(crate) fn file(role: &str) -> &str {
         "quantity_names" => "names of quantities",
         other => other,
     }
+}
+
+/// What a run had of its cache.
+pub(super) fn cache(tally: &Tally) -> String {
+    let of_kind = |(kind, n): (&Kind, &usize)| match kind {
+        Kind::Factor => counted(*n, "factor", "factors"),
+        Kind::Count => counted(*n, "count", "counts"),
+        Kind::Modes => counted(*n, "set of modes", "sets of modes"),
+    };
+    let list = |found: &BTreeMap<Kind, usize>| match found.is_empty() {
+        true => "nothing".to_owned(),
+        false => found.iter().map(of_kind).collect::<Vec<_>>().join(", "),
+    };
+    format!("{} taken from earlier runs · {} kept for later ones", list(&tally.taken), list(&tally.kept))
 }
 
 pub(super) fn mode_kind(kind: ModeKind) -> &'static str {

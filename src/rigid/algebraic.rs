@@ -4,6 +4,7 @@ use faer::Mat;
 
 use super::energy::residuals;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
+use crate::cache::{Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::eigen::{Shifted, mass_qr, shifted};
 use crate::error::{Error, Result};
@@ -39,6 +40,10 @@ pub(crate) struct ZeroModes {
 /// # Errors
 /// As [`from_matrices`].
 pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
+    recalled(partition.cache(), || partition.key("zero modes"), || found_zero_modes(partition))
+}
+
+fn found_zero_modes(partition: &Partition) -> Result<ZeroModes> {
     let analysis = Analysis::new(partition.pencil())?;
     let problem = partition.free_problem();
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;
@@ -62,9 +67,16 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
         energy.noise = energy.noise.max((partition.precision.stiffness.share + f64::EPSILON) * magnitude);
     }
-    let rigid = RigidBodyModes {
+    let mass_orthonormal = product(&partition.mass, orthonormal.as_ref());
+    let rigid = algebraic(orthonormal, mass_orthonormal, energy);
+    Ok(ZeroModes { rigid, elastic, bar_of_digits, n_factorisations: found.n_factorisations })
+}
+
+/// Modes that come from the matrices, Q and M Q.
+fn algebraic(orthonormal: Mat<f64>, mass_orthonormal: Mat<f64>, energy: RigidEnergy) -> RigidBodyModes {
+    RigidBodyModes {
         modes: orthonormal.clone(),
-        mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),
+        mass_orthonormal,
         orthonormal,
         n_massless: 0,
         n_mechanisms: 0,
@@ -73,8 +85,31 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
         is_classical: false,
         energy,
         passing: None,
-    };
-    Ok(ZeroModes { rigid, elastic, bar_of_digits, n_factorisations: found.n_factorisations })
+    }
+}
+
+impl Recorded for ZeroModes {
+    const KIND: Kind = Kind::Modes;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        let Self { rigid, elastic, bar_of_digits, n_factorisations } = self;
+        let RigidEnergy { largest_quotient, largest_residual, noise, angle } = rigid.energy;
+        to.columns(rigid.orthonormal.as_ref())?;
+        to.columns(rigid.mass_orthonormal.as_ref())?;
+        to.array(&[largest_quotient, largest_residual, noise, angle])?;
+        to.array(elastic)?;
+        to.array(&[*bar_of_digits])?;
+        to.counts(&[*n_factorisations])
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let (orthonormal, mass_orthonormal) = (from.columns()?, from.columns()?);
+        let [largest_quotient, largest_residual, noise, angle] = from.array()?[..] else { return None };
+        let energy = RigidEnergy { largest_quotient, largest_residual, noise, angle };
+        let (elastic, bar_of_digits) = (from.array()?, from.number()?);
+        let [n_factorisations] = from.counts()?[..] else { return None };
+        Some(Self { rigid: algebraic(orthonormal, mass_orthonormal, energy), elastic, bar_of_digits, n_factorisations })
+    }
 }
 
 /// Relative error bar of the first elastic eigenvalue up to which mechanisms below it are counted: what is lost in rounding is then

@@ -4,6 +4,7 @@ use faer::{Mat, MatRef};
 /// Geometric ones come from coordinates and are verified against K, algebraic ones from inverse iteration on K − σM.
 pub use supel_runtime::RigidBodyModes as RigidSource;
 
+use crate::cache::Key;
 use crate::dense;
 use crate::job::Boundary;
 use crate::partition::{InterfaceNode, Partition};
@@ -50,6 +51,25 @@ pub struct RigidEnergy {
 }
 
 impl RigidBodyModes {
+    /// Goes on with the key of what is made of them.
+    pub(crate) fn key(&self, key: Key) -> Key {
+        let Self {
+            modes,
+            orthonormal,
+            mass_orthonormal,
+            n_massless,
+            n_mechanisms,
+            n_grey,
+            source,
+            is_classical,
+            energy,
+            passing,
+        } = self;
+        let key = [modes, orthonormal, mass_orthonormal].iter().fold(key, |key, motions| key.columns(motions.as_ref()));
+        let key = key.shown(&(n_massless, n_mechanisms, n_grey, source, is_classical, energy, passing.is_some()));
+        passing.iter().fold(key, |key, passing| passing.key(key))
+    }
+
     /// n_r.
     pub fn count(&self) -> usize {
         self.modes.ncols()

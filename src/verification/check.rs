@@ -60,6 +60,10 @@ impl Limits {
     }
 }
 
+/// The most that arithmetic and data excuse of a residual relative to its terms, which is one at most: in dofs of another order it is a tenth
+/// and more.
+pub(crate) const MOST_EXCUSED: f64 = 1e-2;
+
 /// How many times its limit a value is at least where a check fails.
 const FAR_ABOVE: f64 = 2.0;
 

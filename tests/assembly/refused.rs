@@ -266,7 +266,7 @@ fn rigid_body_modes_that_strain_the_component_are_refused() {
 
 #[test]
 fn assemblies_that_do_not_fit_into_the_memory_are_refused() {
-    let available = |bytes| Resources { memory_bytes: Some(bytes) };
+    let available = |bytes| Resources { memory_bytes: Some(bytes), cache: None };
     within_memory(1000, available(1 << 30)).expect("half a gigabyte");
     let error = within_memory(10_000, available(1 << 30)).expect_err("48 gigabytes");
     assert!(matches!(error, Error::MemoryAssembly { .. }), "{error}");

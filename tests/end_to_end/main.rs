@@ -2,6 +2,7 @@
 
 mod alike;
 mod axes;
+mod cache;
 mod failures;
 mod few_digits;
 mod fixed_point;

@@ -51,7 +51,7 @@ write     = { superelement = "x.supel" }
 "#;
     let job = Job::parse(text, "job.toml".as_ref()).expect("a job");
     let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
-    let resources = Resources { memory_bytes: Some(16 << 30) };
+    let resources = Resources { memory_bytes: Some(16 << 30), cache: None };
     let in_double = (Storage::Double, None);
     let error = slices_within_memory(&analysis, &partition, &Plan::of(&job), resources, in_double)
         .expect_err("more than 16 GiB");
@@ -122,7 +122,7 @@ write     = { superelement = "x.supel" }
     let partition = Partition::new(model, &job.interfaces).expect("a foot");
     let analysis = partition.analysis().expect("an analysis");
     let needed = |partition: &Partition, storage| {
-        let resources = Resources { memory_bytes: Some(1) };
+        let resources = Resources { memory_bytes: Some(1), cache: None };
         match slices_within_memory(&analysis, partition, &Plan::of(&job), resources, (storage, None)) {
             Err(Error::MemoryForecast { factors, matrices, vectors, in_single: None, .. }) => {
                 factors + matrices + vectors
@@ -151,7 +151,7 @@ fn slices_at_the_same_time_are_those_that_memory_holds() {
     let analysis = partition.analysis().expect("an analysis");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
     let at_once = |memory_bytes| {
-        let resources = Resources { memory_bytes };
+        let resources = Resources { memory_bytes, cache: None };
         pool.install(|| {
             slices_within_memory(&analysis, &partition, &Plan::of(&job), resources, (Storage::Double, Some(800)))
         })
@@ -210,7 +210,8 @@ fn a_comparison_that_does_not_fit() {
     let place = Place::with(&brick([10, 9, 8], [1.0, 0.9, 0.8], &Material::STEEL_SI));
     let job = Job { run: Default::default(), ..limited_job(&place) };
     let superelement = supel::reduce(&job, Resources::default(), &mut ()).expect("unlimited").superelement;
-    let verify = |memory_bytes| supel::verify(&superelement, Some(&job), Resources { memory_bytes }, &mut ());
+    let verify =
+        |memory_bytes| supel::verify(&superelement, Some(&job), Resources { memory_bytes, cache: None }, &mut ());
     let refused =
         (10..40).map(|bits| verify(Some(1 << bits))).find(|found| !matches!(found, Err(Error::MemoryRead { .. })));
     let Some(Err(Error::MemoryComparison { needed, available })) = refused else { panic!("{refused:?}") };

@@ -5,9 +5,9 @@ use crate::plan::rule::Decision;
 use crate::plan::scene::Scene;
 
 pub(in crate::plan) fn k23(_: &Scene<'_>, _: Option<&Facts>) -> Decision {
-    Decision::kept("nothing of an earlier run is at hand")
+    Decision::kept("nothing that a scene decides: a run with `--cache` takes what is there, and its report counts it")
 }
 
 pub(in crate::plan) fn k24(_: &Scene<'_>, _: Option<&Facts>) -> Decision {
-    Decision::kept("nothing of an earlier run is at hand")
+    Decision::kept("nothing that a scene decides: a run with `--cache` takes what is there, and its report counts it")
 }

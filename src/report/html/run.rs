@@ -5,7 +5,7 @@ use super::markup::{Figure, Markup};
 use super::plot;
 use crate::number;
 use crate::number::{counted, duration};
-use crate::report::{RunFacts, StageTime};
+use crate::report::{RunFacts, StageTime, words};
 
 pub(super) fn run(page: &mut Markup, run: &RunFacts) {
     let total: f64 = run.stages.iter().map(|stage| stage.seconds).sum();
@@ -39,6 +39,7 @@ pub(super) fn run(page: &mut Markup, run: &RunFacts) {
             )],
         ));
     }
+    facts.extend(run.cache.as_ref().map(|tally| ("Cache", vec![words::cache(tally)])));
     facts.push(("Peak memory", run.peak_memory_bytes.map(number::bytes).into_iter().collect()));
     let path = |path: &Option<std::path::PathBuf>| path.as_ref().map(|path| path.display().to_string());
     let size = run.file_bytes.map(number::bytes);

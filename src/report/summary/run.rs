@@ -60,6 +60,9 @@ fn facts(page: &mut Page, run: &RunFacts) {
         let entries = number::counted(usize::try_from(factor_nonzeros).unwrap_or(usize::MAX), "nonzero", "nonzeros");
         page.entry("largest factor", &format!("{entries} · {} flop", number::scientific(factor_flops, 2)));
     }
+    if let Some(tally) = &run.cache {
+        page.entry("cache", &words::cache(tally));
+    }
     if let Some(peak) = run.peak_memory_bytes {
         page.entry("peak memory", &number::bytes(peak));
     }

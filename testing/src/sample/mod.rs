@@ -4,6 +4,7 @@ mod evidence;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use supel::cache::{Kind, Tally};
 use supel::error::Result;
 use supel::error::Warning;
 use supel::input::Digits;
@@ -186,6 +187,12 @@ fn run_facts() -> RunFacts {
         },
         superelement: Some("/models/bracket.supel".into()),
         report: Some("/models/bracket.report.json".into()),
+        cache: Some(Tally {
+            taken: [(Kind::Factor, 1), (Kind::Count, 2)].into(),
+            kept: [(Kind::Modes, 1)].into(),
+            n_damaged: 0,
+            not_kept: None,
+        }),
     }
 }
 

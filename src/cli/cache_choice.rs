@@ -1,0 +1,126 @@
+//! Which cache a run has: by the command line, or by the environment.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use super::flags::RunFlags;
+use crate::cache::{Cache, Tally};
+use crate::error::{Error, Result};
+use crate::memory_forecast::bytes_of_gib;
+use crate::number::counted;
+
+const FOLDER: &str = "SUPEL_CACHE";
+const SIZE: &str = "SUPEL_CACHE_GIB";
+/// Factors of models of 100,000 dofs take half of one each.
+const DEFAULT_GIB: f64 = 10.0;
+
+/// A folder, and how large it may become.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CacheChoice {
+    pub(super) folder: PathBuf,
+    most_bytes: u64,
+}
+
+impl CacheChoice {
+    /// What flags say, and of what they do not say the environment; none where both name no folder.
+    ///
+    /// # Errors
+    /// [`Error::JobNumber`] where a size is none.
+    pub(super) fn of(run: &RunFlags) -> Result<Option<Self>> {
+        Self::chosen((run.cache.as_deref(), run.cache_gib), |name| std::env::var_os(name))
+    }
+
+    fn chosen(
+        (folder, gib): (Option<&Path>, Option<f64>),
+        environment: impl Fn(&str) -> Option<OsString>,
+    ) -> Result<Option<Self>> {
+        let named = environment(FOLDER).filter(|name| !name.is_empty()).map(PathBuf::from);
+        let size = environment(SIZE).filter(|size| !size.is_empty());
+        // What is no number is refused as one.
+        let size = size.map(|size| size.to_str().and_then(|size| size.trim().parse().ok()).unwrap_or(f64::NAN));
+        let (key, gib) = match (gib, size) {
+            (Some(gib), _) => ("--cache-gib", gib),
+            (None, Some(gib)) => (SIZE, gib),
+            (None, None) => (SIZE, DEFAULT_GIB),
+        };
+        let Some(folder) = folder.map(Path::to_owned).or(named) else { return Ok(None) };
+        if !(gib > 0.0 && gib.is_finite()) {
+            return Err(Error::JobNumber { key: key.to_owned(), value: gib, expected: "more than zero" });
+        }
+        Ok(Some(Self { folder, most_bytes: bytes_of_gib(gib) }))
+    }
+
+    /// The words of a command line that chooses the same.
+    pub(super) fn words(run: &RunFlags) -> Vec<OsString> {
+        let folder = run.cache.iter().flat_map(|folder| [OsString::from("--cache"), folder.clone().into()]);
+        let gib = run.cache_gib.iter().flat_map(|gib| [OsString::from("--cache-gib"), gib.to_string().into()]);
+        folder.chain(gib).collect()
+    }
+
+    /// The cache.
+    ///
+    /// # Errors
+    /// Those of [`Cache::at`].
+    pub(super) fn open(&self) -> Result<Cache> {
+        Cache::at(&self.folder, self.most_bytes)
+    }
+
+    /// What went wrong with it, one line each.
+    pub(super) fn complaints(&self, tally: &Tally) -> Vec<String> {
+        let folder = self.folder.display();
+        let damaged = (tally.n_damaged > 0).then(|| {
+            let entries = counted(tally.n_damaged, "damaged entry", "damaged entries");
+            format!("supel: cache {folder}: {entries} removed; what they held was computed anew")
+        });
+        let not_kept = tally
+            .not_kept
+            .as_ref()
+            .map(|reason| format!("supel: cache {folder}: not everything is kept for later runs: {reason}"));
+        damaged.into_iter().chain(not_kept).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HALF: f64 = 0.5;
+
+    fn chosen(flags: (Option<&str>, Option<f64>), environment: [Option<&str>; 2]) -> Result<Option<CacheChoice>> {
+        CacheChoice::chosen((flags.0.map(Path::new), flags.1), |name| {
+            environment[usize::from(name == SIZE)].map(OsString::from)
+        })
+    }
+
+    #[test]
+    fn flags_go_before_the_environment() {
+        let choice = |folder: &str, gib| Some(CacheChoice { folder: folder.into(), most_bytes: bytes_of_gib(gib) });
+        for (flags, environment, expected) in [
+            ((None, None), [None, None], None),
+            ((None, None), [Some(""), Some("")], None),
+            ((None, Some(HALF)), [None, None], None),
+            ((Some("a"), None), [None, None], choice("a", DEFAULT_GIB)),
+            ((Some("a"), None), [Some("b"), Some("2")], choice("a", 2.0)),
+            ((None, None), [Some("b"), Some("2")], choice("b", 2.0)),
+            ((None, Some(HALF)), [Some("b"), Some("2")], choice("b", HALF)),
+        ] {
+            assert_eq!(chosen(flags, environment).expect("sizes"), expected, "{flags:?} {environment:?}");
+        }
+    }
+
+    #[test]
+    fn a_size_that_is_none_is_refused_by_its_name() {
+        for (gib, size, key) in [
+            (Some(0.0), None, "--cache-gib"),
+            (Some(-1.0), Some("2"), "--cache-gib"),
+            (Some(f64::NAN), None, "--cache-gib"),
+            (None, Some("much"), SIZE),
+            (None, Some("-2"), SIZE),
+        ] {
+            match chosen((Some("a"), gib), [None, size]) {
+                Err(Error::JobNumber { key: found, .. }) => assert_eq!(found, key),
+                other => panic!("{gib:?} {size:?}: {other:?}"),
+            }
+        }
+    }
+}

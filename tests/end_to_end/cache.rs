@@ -1,0 +1,328 @@
+//! A cache changes no bit: whatever it has, whatever was done to it, and whoever else uses it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::{Value, json};
+use supel::cli::ExitCode;
+
+use crate::place::{Ended, Place, supel};
+
+const RIGID: &str = "--rigid-interface root=1,6,11,16,21,26,31,36,41 --rigid-interface tip=5,10,15,20,25,30,35,40,45";
+const DIRECT: &str = "--interface root=1,11,31,41 --interface tip=5,15,35,45";
+/// Flags of a reduction with everything that a cache keeps: a factor, counts, modes of its own and of other boundaries.
+const PLAIN: &str = "--method craig-bampton --modes 6";
+
+/// Superelement and body of the report.
+type Written = (Vec<u8>, String);
+
+fn reduced(place: &Place, rest: &str) -> (Written, Value, Ended) {
+    let ended = place.reduce(&place.model_flags(), rest).expect(ExitCode::Done);
+    let written = (place.bytes("x.supel"), place.report_body("x.report.json"));
+    (written, place.report("x.report.json")["run"]["cache"].clone(), ended)
+}
+
+/// The same with the cache in a folder of the place.
+fn cached(place: &Place, rest: &str) -> (Written, Value, Ended) {
+    reduced(place, &format!("{rest} --cache {}", place.text("cache")))
+}
+
+fn entries(place: &Place) -> Vec<PathBuf> {
+    let files = fs::read_dir(place.path("cache")).expect("a folder").map(|file| file.expect("a file").path());
+    let mut entries: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|end| end == "entry")).collect();
+    entries.sort();
+    entries
+}
+
+fn of_kind<'a>(entries: &'a [PathBuf], kind: &str) -> Vec<&'a Path> {
+    let is_of = |path: &&PathBuf| path.file_name().and_then(|name| name.to_str()).is_some_and(|n| n.starts_with(kind));
+    entries.iter().filter(is_of).map(PathBuf::as_path).collect()
+}
+
+#[track_caller]
+fn assert_same(found: &Written, expected: &Written, what: &str) {
+    assert!(found.0 == expected.0, "the superelement differs: {what}");
+    assert_eq!(found.1, expected.1, "the report differs: {what}");
+}
+
+/// Without a cache, with an empty one, and with what that run has left.
+#[test]
+fn a_cache_changes_no_bit_of_any_method() {
+    for interfaces in [RIGID, DIRECT] {
+        for method in [
+            PLAIN,
+            "--method craig-bampton --up-to-hz 9000 --inertia-relief",
+            "--method craig-bampton --modes 6 --certify full",
+            "--method craig-bampton --modes 6 --precision mixed",
+            "--method herting --modes 6",
+            "--method herting --up-to-hz 9000 --precision mixed",
+            "--method rubin --modes 6",
+            "--method macneal --modes 6",
+            "--method mixed-interface --held root --modes 6",
+            "--method guyan",
+        ] {
+            let what = format!("{interfaces} {method}");
+            let place = Place::with_brick();
+            let (plain, none, _) = reduced(&place, &what);
+            assert_eq!(none, Value::Null, "{what}");
+            let (cold, of_cold, _) = cached(&place, &what);
+            assert_same(&cold, &plain, &format!("{what}, empty"));
+            assert_eq!((&of_cold["taken"], &of_cold["kept"]["factor"]), (&json!({}), &json!(1)), "{what}");
+            let (warm, of_warm, _) = cached(&place, &what);
+            assert_same(&warm, &plain, &format!("{what}, warm"));
+            assert_eq!((&of_warm["taken"], &of_warm["kept"]), (&of_cold["kept"], &json!({})), "{what}");
+            assert_eq!(of_warm["n_damaged"], 0, "{what}");
+        }
+    }
+}
+
+/// What another job needs is what it gets, and not what is nearly it.
+#[test]
+fn other_jobs_take_what_is_theirs() {
+    let place = Place::with_brick();
+    let first = format!("{RIGID} {PLAIN}");
+    let (_, of_first, _) = cached(&place, &first);
+    assert!(of_first["kept"]["modes"].as_u64() > Some(1), "its own modes and those of boundaries: {of_first}");
+    for (rest, taken) in [
+        (format!("{RIGID} --method craig-bampton --modes 7"), json!({ "factor": 1 })),
+        (format!("{RIGID} --method herting --modes 6"), json!({ "factor": 1 })),
+        (format!("{RIGID} --method guyan"), json!({ "factor": 1 })),
+        (format!("{RIGID} {PLAIN} --precision mixed"), json!({})),
+        (format!("{DIRECT} {PLAIN}"), json!({})),
+        (format!("{RIGID} {PLAIN} --fix foot=23"), json!({})),
+    ] {
+        let (plain, _, _) = reduced(&place, &rest);
+        let (found, of_cache, _) = cached(&place, &rest);
+        assert_same(&found, &plain, &rest);
+        let own = |kind: &str| of_cache["taken"][kind].as_u64();
+        assert_eq!(
+            (own("factor"), own("modes").is_some()),
+            (taken["factor"].as_u64(), own("modes").is_some()),
+            "{rest}"
+        );
+        if taken["factor"].is_null() {
+            assert_eq!(of_cache["taken"], json!({}), "{rest}");
+        }
+    }
+}
+
+/// A value of M leaves the factor at shift zero as it is, one of K changes everything, and so does what is said of their digits.
+#[test]
+fn a_changed_number_is_noticed() {
+    let words = format!("{RIGID} {PLAIN}");
+    let place = Place::with_brick();
+    cached(&place, &words);
+    let [stiffness, mass] = ["K.mtx", "M.mtx"].map(|name| place.bytes(name));
+    // A late digit of the last entry, which is on the diagonal.
+    let changed = |bytes: &[u8]| {
+        let mut text = String::from_utf8(bytes.to_vec()).expect("text");
+        let end = text.rfind('e').expect("an exponent");
+        let at = text[..end].rfind(|c: char| matches!(c, '1'..='8')).expect("a digit");
+        assert!(text[..end].ends_with(|c: char| c.is_ascii_digit()) && end - at < 4, "{}", &text[at..]);
+        let next = text[at..=at].parse::<u8>().expect("a digit") + 1;
+        text.replace_range(at..=at, &next.to_string());
+        text.into_bytes()
+    };
+    for (name, bytes, factors) in [("M.mtx", &mass, Some(1)), ("K.mtx", &stiffness, None)] {
+        place.write(name, &changed(bytes));
+        let (plain, _, _) = reduced(&place, &words);
+        let (found, of_cache, _) = cached(&place, &words);
+        assert_same(&found, &plain, name);
+        assert_eq!(of_cache["taken"]["factor"].as_u64(), factors, "{name}: {of_cache}");
+        assert_eq!(of_cache["taken"]["modes"], Value::Null, "{name}: {of_cache}");
+        assert_eq!(of_cache["taken"]["count"], Value::Null, "{name}: {of_cache}");
+        place.write(name, bytes);
+    }
+    let (_, of_cache, _) = cached(&place, &words);
+    assert_eq!(of_cache["kept"], json!({}), "the first numbers again");
+}
+
+/// Every entry, one at a time and all at once: emptied, cut, with one bit flipped, exchanged with another one of its kind.
+#[test]
+fn damage_is_noticed_said_and_mended() {
+    let words = format!("{RIGID} {PLAIN}");
+    let place = Place::with_brick();
+    let (plain, of_cold, _) = cached(&place, &words);
+    let all = entries(&place);
+    let n_kept = ["factor", "count", "modes"].map(|kind| of_cold["kept"][kind].as_u64().expect("kept"));
+    assert_eq!(n_kept.iter().sum::<u64>(), all.len() as u64);
+    let harms: [&dyn Fn(&mut Vec<u8>); 4] = [
+        &|bytes| bytes.clear(),
+        &|bytes| bytes.truncate(bytes.len() / 2),
+        &|bytes| {
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 0x10;
+        },
+        &|bytes| bytes.push(0),
+    ];
+    for harm in harms {
+        for path in &all {
+            let mut bytes = fs::read(path).expect("an entry");
+            harm(&mut bytes);
+            fs::write(path, bytes).expect("written");
+        }
+        let (found, of_cache, ended) = cached(&place, &words);
+        assert_same(&found, &plain, "damaged");
+        assert_eq!((&of_cache["taken"], &of_cache["kept"]), (&json!({}), &of_cold["kept"]));
+        assert_eq!(of_cache["n_damaged"], all.len());
+        assert!(ended.err.contains(&format!("{} damaged entries removed", all.len())), "{}", ended.err);
+    }
+    let modes = of_kind(&all, "modes");
+    let contents: Vec<Vec<u8>> = modes.iter().map(|path| fs::read(path).expect("an entry")).collect();
+    assert!(modes.len() > 1);
+    for (path, bytes) in modes.iter().zip(contents.iter().cycle().skip(1)) {
+        fs::write(path, bytes).expect("written");
+    }
+    let (found, of_cache, _) = cached(&place, &words);
+    assert_same(&found, &plain, "exchanged");
+    assert_eq!(of_cache["n_damaged"], modes.len());
+}
+
+#[test]
+fn a_small_cache_keeps_what_fits_and_says_so() {
+    let words = format!("{RIGID} {PLAIN}");
+    let place = Place::with_brick();
+    let (plain, _, _) = reduced(&place, &words);
+    // Counts have some hundred bytes, a factor of 135 dofs more than ten thousand.
+    let (found, of_cache, ended) = cached(&place, &format!("{words} --cache-gib 1e-6"));
+    assert_same(&found, &plain, "a cache of a kilobyte");
+    assert_eq!(of_cache["kept"]["factor"], Value::Null);
+    assert!(of_cache["not_kept"].as_str().is_some_and(|reason| reason.contains("larger than the cache may be")));
+    assert!(ended.err.contains("not everything is kept for later runs"), "{}", ended.err);
+    let bytes: u64 = entries(&place).iter().map(|path| path.metadata().expect("an entry").len()).sum();
+    assert!(bytes <= 1073, "{bytes}");
+}
+
+#[test]
+fn what_can_be_no_cache_is_refused() {
+    let place = Place::with_brick();
+    place.write("file", b"not a folder");
+    for (flags, code, words) in [
+        (format!("--cache {}", place.text("file")), ExitCode::Io, "E-WRITE"),
+        (format!("--cache {} --cache-gib 0", place.text("cache")), ExitCode::Usage, "--cache-gib"),
+        (format!("--cache {} --cache-gib nan", place.text("cache")), ExitCode::Usage, "--cache-gib"),
+    ] {
+        let ended = place.reduce(&place.model_flags(), &format!("{RIGID} {PLAIN} {flags}")).expect(code);
+        assert!(ended.err.contains(words), "{}", ended.err);
+        assert!(!place.path("x.supel").exists());
+    }
+    assert_eq!(place.bytes("file"), b"not a folder");
+}
+
+fn program(place: &Place, output: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_supel"));
+    command.args(["reduce", "--output", &place.text(output), "--json"]).args(place.model_flags());
+    command.args(RIGID.split(' ')).args(PLAIN.split(' '));
+    command.env_remove("SUPEL_CACHE").env_remove("SUPEL_CACHE_GIB");
+    command
+}
+
+fn answer(command: &mut Command) -> Value {
+    let output = command.output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+#[test]
+fn the_environment_names_a_cache() {
+    let place = Place::with_brick();
+    let run = |folder: &str, gib: &str| {
+        let mut command = program(&place, "x.supel");
+        command.arg("--force").env("SUPEL_CACHE", folder).env("SUPEL_CACHE_GIB", gib);
+        let of_cache = answer(&mut command)["run"]["cache"].clone();
+        (of_cache, place.bytes("x.supel"))
+    };
+    let folder = place.text("cache");
+    let (none, plain) = run("", "");
+    let (small, of_small) = run(&folder, "1e-6");
+    let (cold, of_cold) = run(&folder, "");
+    let (warm, of_warm) = run(&folder, "1");
+    assert_eq!((none, &small["kept"]["factor"]), (Value::Null, &Value::Null));
+    assert_eq!((&cold["kept"]["factor"], &warm["taken"]["factor"]), (&json!(1), &json!(1)));
+    assert!([of_small, of_cold, of_warm].iter().all(|bytes| *bytes == plain));
+}
+
+/// Eight at a time, twice: with nothing there, and with everything.
+#[test]
+fn processes_share_a_cache() {
+    let place = Place::with_brick();
+    // The file keeps its own name, and where its inputs are from there.
+    let names: Vec<String> = (0..9).map(|n| format!("{n}/x.supel")).collect();
+    (0..9).for_each(|n| fs::create_dir(place.path(&n.to_string())).expect("a folder"));
+    let (plain, names) = names.split_last().expect("nine");
+    answer(&mut program(&place, plain));
+    for round in 0..2 {
+        let started: Vec<_> = names
+            .iter()
+            .map(|name| {
+                let mut command = program(&place, name);
+                command.args(["--force", "--threads", "1", "--cache", &place.text("cache")]);
+                command.stdout(std::process::Stdio::piped()).spawn().expect("it runs")
+            })
+            .collect();
+        for process in started {
+            let output = process.wait_with_output().expect("it ends");
+            let answer: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            let cache = &answer["run"]["cache"];
+            assert_eq!((&cache["n_damaged"], &cache["not_kept"]), (&json!(0), &Value::Null), "{cache}");
+            // Who comes late to the first round may find everything.
+            assert!(round == 0 || cache["kept"] == json!({}), "{cache}");
+        }
+    }
+    assert!(names.iter().all(|name| place.bytes(name) == place.bytes(plain)));
+    let parts = fs::read_dir(place.path("cache")).expect("a folder").count();
+    assert_eq!(parts, entries(&place).len() + 1, "the tag, and no part is left");
+}
+
+/// `reduce --all` hands it to its runs.
+#[test]
+fn many_jobs_share_a_cache() {
+    let place = Place::with_brick();
+    for name in ["a", "b"] {
+        let job = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+             interface = [{{ name = \"root\", nodes = [1, 6, 11, 16], coupling = \"rigid\" }}]\n\
+             reduction = {{ method = \"craig-bampton\", modes = {{ count = 4 }} }}\n\
+             write = {{ superelement = \"{name}.supel\" }}\n"
+        );
+        place.write(&format!("{name}.toml"), job.as_bytes());
+    }
+    let [folder, cache] = ["", "cache"].map(|name| place.text(name));
+    let run = |more: &[&str]| {
+        let words = ["reduce", "--all", &folder, "--cache", &cache];
+        let output = Command::new(env!("CARGO_BIN_EXE_supel")).args(words).args(more).output().expect("it runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    };
+    run(&["--force"]);
+    let kept = entries(&place);
+    assert_eq!(of_kind(&kept, "factor").len(), 1, "both have one K");
+    run(&["--force"]);
+    for name in ["a", "b"] {
+        let of_cache = place.report(&format!("{name}.report.json"))["run"]["cache"].clone();
+        assert_eq!((&of_cache["taken"]["factor"], &of_cache["kept"]), (&json!(1), &json!({})), "{name}");
+    }
+}
+
+/// What a report says of the cache in words.
+#[test]
+fn the_summary_says_what_was_taken() {
+    let place = Place::with_brick();
+    let words = format!("{RIGID} --method guyan");
+    let (_, _, cold) = cached(&place, &words);
+    let words_of = |ended: &Ended| ended.out.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words_of(&cold).contains("cache nothing taken from earlier runs · 1 factor"), "{}", cold.out);
+    let (_, _, warm) = cached(&place, &words);
+    let warm = words_of(&warm);
+    assert!(warm.contains("cache 1 factor") && warm.contains("nothing kept for later ones"), "{warm}");
+    let html = place.text("x.html");
+    let cache = place.text("cache");
+    let output = place.text("x.supel");
+    let mut args = vec!["reduce", "--output", &output, "--html", &html, "--cache", &cache];
+    let model = place.model_flags();
+    args.extend(model.iter().map(String::as_str));
+    args.extend(words.split(' '));
+    supel(&args).expect(ExitCode::Done);
+    let page = String::from_utf8(place.bytes("x.html")).expect("text");
+    assert!(page.contains("taken from earlier runs"), "the page names the cache");
+}
