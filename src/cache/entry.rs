@@ -148,9 +148,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Whole numbers.
+    /// Whole numbers, small enough to be added up.
     pub(crate) fn counts(&mut self) -> Option<Vec<usize>> {
-        self.array::<u64>()?.into_iter().map(|count| usize::try_from(count).ok()).collect()
+        let small = |count: u64| usize::try_from(count).ok().filter(|count| *count <= u32::MAX as usize);
+        self.array::<u64>()?.into_iter().map(small).collect()
     }
 
     /// A matrix.
@@ -172,7 +173,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Whether the entry ends here and is as it was written.
-    pub(super) fn is_whole(mut self) -> bool {
+    pub(super) fn ends_whole(mut self) -> bool {
         let mut digest = Digest::default();
         self.n_left == 0 && self.file.read_exact(&mut digest).is_ok() && self.hasher.finalize() == digest
     }

@@ -1,8 +1,9 @@
 //! The folder of a cache: what is in it, and how much.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::fs::{DirEntry, File};
+use std::fs::{File, Metadata};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, SystemTime};
@@ -21,7 +22,7 @@ pub enum Kind {
     Factor,
     /// A count of eigenvalues.
     Count,
-    /// Modes, certified if that was asked for.
+    /// Modes.
     Modes,
 }
 
@@ -35,6 +36,13 @@ impl Kind {
             Self::Modes => "modes",
         }
     }
+
+    /// That of an entry, by the name of its file.
+    fn of(name: &str) -> Option<Self> {
+        let (kind, key) = name.strip_suffix(ENTRY)?.split_once('-')?;
+        let is_key = key.len() == 64 && key.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
+        Self::ALL.into_iter().find(|known| is_key && known.name() == kind)
+    }
 }
 
 /// What a run had of its cache.
@@ -42,10 +50,10 @@ impl Kind {
 pub struct Tally {
     /// Results of earlier runs that it took, by kind.
     pub taken: BTreeMap<Kind, usize>,
-    /// Results of its own that it kept for later runs, by kind.
+    /// Results of its own that it left there for later runs, by kind.
     pub kept: BTreeMap<Kind, usize>,
-    /// Files that were no entry although they were named so.
-    pub n_damaged: usize,
+    /// Files with names of entries that were none or could not be read.
+    pub damaged: BTreeSet<String>,
     /// Why a result was not kept, where one was not.
     pub not_kept: Option<String>,
 }
@@ -59,10 +67,13 @@ struct Shared {
     folder: PathBuf,
     most_bytes: u64,
     tally: Mutex<Tally>,
+    /// Names of the entries that the run has made.
+    own: Mutex<BTreeMap<String, Kind>>,
 }
 
-const ENTRY: &str = "entry";
-const PART: &str = "part";
+const ENTRY: &str = ".entry";
+/// What begins and ends the name of an entry that is being written.
+const PART: [&str; 2] = [".supel-cache-", ".part"];
 /// Written parts older than this belong to no process any more.
 const ABANDONED: Duration = Duration::from_secs(24 * 3600);
 const TAG: &str = "CACHEDIR.TAG";
@@ -70,65 +81,68 @@ const TAG_TEXT: &str = "Signature: 8a477f597d28d172789f06886806bc55\n\
                         # Results of supel that it computes anew where they are missing. See https://bford.info/cachedir/\n";
 
 impl Cache {
-    /// The cache in a folder, which is made where it is missing, of so many bytes at most.
+    /// The cache in a folder, which is made once there is something to be kept, of so many bytes at most.
     ///
     /// # Errors
-    /// [`Error::Write`] where there can be no such folder.
+    /// [`Error::Write`] where something else has that name.
     pub fn at(folder: &Path, most_bytes: u64) -> Result<Self> {
-        let refused = |source| Error::Write { path: folder.to_owned(), source };
-        std::fs::create_dir_all(folder).map_err(refused)?;
-        let tag = folder.join(TAG);
-        if !tag.exists() {
-            std::fs::write(&tag, TAG_TEXT).map_err(refused)?;
+        if std::fs::metadata(folder).is_ok_and(|facts| !facts.is_dir()) {
+            return Err(Error::Write { path: folder.to_owned(), source: ErrorKind::NotADirectory.into() });
         }
-        Ok(Self(Arc::new(Shared { folder: folder.to_owned(), most_bytes, tally: Mutex::default() })))
+        let (tally, own) = (Mutex::default(), Mutex::default());
+        let cache = Self(Arc::new(Shared { folder: folder.to_owned(), most_bytes, tally, own }));
+        // It may have been larger before.
+        let _ = cache.make_room(0);
+        Ok(cache)
     }
 
     /// What was had of it so far.
     pub fn tally(&self) -> Tally {
-        self.tallied().clone()
-    }
-
-    fn tallied(&self) -> MutexGuard<'_, Tally> {
-        self.0.tally.lock().unwrap_or_else(PoisonError::into_inner)
+        let mut tally = locked(&self.0.tally).clone();
+        for kind in locked(&self.0.own).values() {
+            *tally.kept.entry(*kind).or_default() += 1;
+        }
+        tally
     }
 
     /// The result under a key, by `read`; none where there is none or it is damaged.
     pub(crate) fn take<T>(&self, kind: Kind, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
-        let path = self.path_of(kind, key);
-        // What is no regular file may have no end.
-        if !std::fs::symlink_metadata(&path).ok()?.is_file() {
-            return None;
-        }
-        let file = File::open(&path).ok()?;
-        let mut reader = Reader::new(&file, &key.digest());
-        let found = reader.as_mut().and_then(read);
-        if !reader.is_some_and(Reader::is_whole) || found.is_none() {
-            self.tallied().n_damaged += 1;
+        let name = name_of(kind, key);
+        let path = self.0.folder.join(&name);
+        let facts = std::fs::symlink_metadata(&path).ok()?;
+        let found = taken(&path, &facts, key, read);
+        if found.is_none() {
+            // Where it is gone meanwhile another process has made room.
+            path.symlink_metadata().ok()?;
+            locked(&self.0.tally).damaged.insert(name);
             let _ = std::fs::remove_file(&path);
             return None;
         }
         // The times say what was used last.
         let _ = File::options().append(true).open(&path).and_then(|file| file.set_modified(SystemTime::now()));
-        *self.tallied().taken.entry(kind).or_default() += 1;
+        *locked(&self.0.tally).taken.entry(kind).or_default() += 1;
         found
     }
 
     /// Keeps a result under a key, by `write`. What cannot be kept is tallied, and no error.
     pub(crate) fn keep(&self, kind: Kind, key: &Key, write: impl FnOnce(&mut Writer<'_>) -> std::io::Result<()>) {
-        match self.written(kind, key, write) {
-            Ok(()) => *self.tallied().kept.entry(kind).or_default() += 1,
-            Err(error) => self.tallied().not_kept = Some(format!("{}: {error}", kind.name())),
+        let name = name_of(kind, key);
+        match self.written(&name, key, write) {
+            Ok(()) => {
+                locked(&self.0.own).insert(name, kind);
+            }
+            Err(error) => locked(&self.0.tally).not_kept = Some(format!("{}: {error}", kind.name())),
         }
     }
 
     fn written(
         &self,
-        kind: Kind,
+        name: &str,
         key: &Key,
         write: impl FnOnce(&mut Writer<'_>) -> std::io::Result<()>,
     ) -> std::io::Result<()> {
-        let part = tempfile::Builder::new().suffix(&format!(".{PART}")).tempfile_in(&self.0.folder)?;
+        self.make_folder()?;
+        let part = new_part(&self.0.folder)?;
         let mut writer = Writer::new(part.as_file(), &key.digest())?;
         write(&mut writer)?;
         let n_bytes = writer.finish()?;
@@ -136,8 +150,24 @@ impl Cache {
             return Err(std::io::Error::other("it is larger than the cache may be"));
         }
         self.make_room(n_bytes)?;
-        part.persist(self.path_of(kind, key)).map_err(|error| error.error)?;
+        part.persist(self.0.folder.join(name)).map_err(|error| error.error)?;
         Ok(())
+    }
+
+    /// Makes the folder where it is missing. Only one that is made here is all of it a cache, and says so to backup programs.
+    fn make_folder(&self) -> std::io::Result<()> {
+        if self.0.folder.is_dir() {
+            return Ok(());
+        }
+        if let Some(parent) = self.0.folder.parent() {
+            std::fs::create_dir_all(parent)?;
+        }
+        match std::fs::create_dir(&self.0.folder) {
+            Ok(()) => std::fs::write(self.0.folder.join(TAG), TAG_TEXT),
+            // Another process was faster.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(()),
+            Err(error) => Err(error),
+        }
     }
 
     /// Removes what was used longest ago until so many bytes more are no more than allowed.
@@ -145,50 +175,61 @@ impl Cache {
         let mut entries = Vec::new();
         for file in std::fs::read_dir(&self.0.folder)? {
             let Ok(file) = file else { continue };
-            let Ok(facts) = file.metadata() else { continue };
-            let Ok(used) = facts.modified() else { continue };
-            match belonging(&file) {
-                Some(ENTRY) => entries.push((used, facts.len(), file.path())),
-                Some(PART) if used.elapsed().is_ok_and(|age| age > ABANDONED) => {
-                    let _ = std::fs::remove_file(file.path());
-                }
-                _ => {}
+            let (name, Ok(facts)) = (file.file_name(), file.metadata()) else { continue };
+            let (Some(name), Ok(used)) = (name.to_str(), facts.modified()) else { continue };
+            if Kind::of(name).is_some() {
+                entries.push((used, facts.len(), name.to_owned()));
+            } else if is_part(name) && used.elapsed().is_ok_and(|age| age > ABANDONED) {
+                let _ = std::fs::remove_file(file.path());
             }
         }
         entries.sort();
         let mut total = entries.iter().map(|(_, n_bytes, _)| n_bytes).sum::<u64>() + n_bytes;
-        for (_, n_bytes, path) in entries {
+        for (_, n_bytes, name) in entries {
             if total <= self.0.most_bytes {
                 break;
             }
             // Another process may have been faster.
-            let _ = std::fs::remove_file(path);
+            let _ = std::fs::remove_file(self.0.folder.join(&name));
             total -= n_bytes;
+            if let Some(kind) = locked(&self.0.own).remove(&name) {
+                let reason = format!("{}: the cache has no room for all results of the run", kind.name());
+                locked(&self.0.tally).not_kept = Some(reason);
+            }
         }
         Ok(())
     }
-
-    fn path_of(&self, kind: Kind, key: &Key) -> PathBuf {
-        let mut name = format!("{}-", kind.name());
-        key.digest().iter().for_each(|byte| write!(name, "{byte:02x}").expect("a string takes all"));
-        self.0.folder.join(format!("{name}.{ENTRY}"))
-    }
 }
 
-/// What a file of the folder is to a cache, by its name: an entry, a part of one, or nothing.
-fn belonging(file: &DirEntry) -> Option<&'static str> {
-    let name = file.file_name();
-    let (stem, ending) = name.to_str()?.rsplit_once('.')?;
-    let is_entry = || {
-        let (kind, key) = stem.split_once('-')?;
-        let is_key = key.len() == 64 && key.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
-        (is_key && Kind::ALL.iter().any(|known| known.name() == kind)).then_some(ENTRY)
-    };
-    match ending {
-        ENTRY => is_entry(),
-        PART => stem.starts_with(".tmp").then_some(PART),
-        _ => None,
-    }
+/// The content of a file that may be an entry; what is no regular file may have no end.
+fn taken<T>(path: &Path, facts: &Metadata, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
+    let file = facts.is_file().then(|| File::open(path).ok()).flatten()?;
+    let mut reader = Reader::new(&file, &key.digest())?;
+    let found = read(&mut reader)?;
+    reader.ends_whole().then_some(found)
+}
+
+fn name_of(kind: Kind, key: &Key) -> String {
+    let mut name = format!("{}-", kind.name());
+    key.digest().iter().for_each(|byte| write!(name, "{byte:02x}").expect("a string takes all"));
+    name + ENTRY
+}
+
+fn is_part(name: &str) -> bool {
+    name.starts_with(PART[0]) && name.ends_with(PART[1])
+}
+
+/// A file for an entry that is being written. Who may read files of this user may read it, as the umask says.
+fn new_part(folder: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut part = tempfile::Builder::new();
+    part.prefix(PART[0]).suffix(PART[1]);
+    #[cfg(unix)]
+    part.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    part.tempfile_in(folder)
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
@@ -203,6 +244,10 @@ mod tests {
 
     fn key(n: u32) -> Key {
         Key::of("test").numbers(&[n])
+    }
+
+    fn path_of(cache: &Cache, n: u32) -> PathBuf {
+        cache.0.folder.join(name_of(KIND, &key(n)))
     }
 
     fn keep(cache: &Cache, n: u32) {
@@ -221,7 +266,7 @@ mod tests {
     }
 
     fn used_at(cache: &Cache, n: u32, seconds: u64) {
-        let file = File::options().append(true).open(cache.path_of(KIND, &key(n))).expect("an entry");
+        let file = File::options().append(true).open(path_of(cache, n)).expect("an entry");
         file.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(seconds)).expect("a time");
     }
 
@@ -234,7 +279,7 @@ mod tests {
         let second = cache(folder.path(), 9);
         assert_eq!(taken(&second, 1), Some(numbers(1)));
         assert_eq!(taken(&second, 2), None);
-        let path = second.path_of(KIND, &key(1));
+        let path = path_of(&second, 1);
         assert_eq!(path.metadata().expect("an entry").len(), ENTRY_BYTES);
         assert_eq!((first.tally().kept, first.tally().taken), ([(KIND, 1)].into(), BTreeMap::new()));
         assert_eq!((second.tally().kept, second.tally().taken), (BTreeMap::new(), [(KIND, 1)].into()));
@@ -245,7 +290,7 @@ mod tests {
     fn damaged_entries_are_removed_and_not_taken() {
         let folder = tempfile::tempdir().expect("a folder");
         let cache = cache(folder.path(), 9);
-        let path = cache.path_of(KIND, &key(1));
+        let path = path_of(&cache, 1);
         keep(&cache, 1);
         let sound = std::fs::read(&path).expect("an entry");
         let flipped = (0..sound.len()).map(|at| {
@@ -255,13 +300,11 @@ mod tests {
         });
         let cut = (0..sound.len()).map(|length| sound[..length].to_vec());
         let longer = [[sound.clone(), vec![0]].concat(), [sound.clone(), sound.clone()].concat()];
-        let mut n_damaged = 0;
         for bytes in flipped.chain(cut).chain(longer) {
             std::fs::write(&path, &bytes).expect("written");
             assert_eq!(taken(&cache, 1), None);
             assert!(!path.exists());
-            n_damaged += 1;
-            assert_eq!(cache.tally().n_damaged, n_damaged);
+            assert_eq!(cache.tally().damaged, [name_of(KIND, &key(1))].into());
         }
         std::fs::write(&path, &sound).expect("written");
         assert_eq!(taken(&cache, 1), Some(numbers(1)));
@@ -273,10 +316,11 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let cache = cache(folder.path(), 9);
         keep(&cache, 1);
-        std::fs::rename(cache.path_of(KIND, &key(1)), cache.path_of(KIND, &key(2))).expect("renamed");
+        std::fs::rename(path_of(&cache, 1), path_of(&cache, 2)).expect("renamed");
         assert_eq!(taken(&cache, 2), None);
         keep(&cache, 3);
-        let shapes: [&dyn Fn(&mut Reader<'_>) -> Option<()>; 5] = [
+        type Shape<'a> = &'a dyn Fn(&mut Reader<'_>) -> Option<()>;
+        let shapes: [Shape<'_>; 5] = [
             &|from| from.array::<f32>().map(|_| ()),
             &|from| from.number::<u32>().map(|_| ()),
             &|from| from.columns().map(|_| ()),
@@ -288,7 +332,7 @@ mod tests {
             keep(&cache, 3);
             assert_eq!(cache.take(KIND, &key(3), shape), None);
         }
-        std::fs::create_dir(cache.path_of(KIND, &key(4))).expect("a folder");
+        std::fs::create_dir(path_of(&cache, 4)).expect("a folder");
         assert_eq!(taken(&cache, 4), None);
         keep(&cache, 4);
         assert!(cache.tally().not_kept.is_some(), "a folder is in its place");
@@ -299,15 +343,16 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let foreign = ["notes.entry", "factor-00.entry", "factor-zz.part", "K.mtx", "count-.entry"];
         foreign.iter().for_each(|name| std::fs::write(folder.path().join(name), "mine").expect("written"));
-        let cache = cache(folder.path(), 3);
+        let before = cache(folder.path(), 3);
         for (n, seconds) in [(1, 30), (2, 10), (3, 20)] {
-            keep(&cache, n);
-            used_at(&cache, n, seconds);
+            keep(&before, n);
+            used_at(&before, n, seconds);
         }
+        let cache = cache(folder.path(), 3);
         // It was used longest ago, and is used now.
         assert!(taken(&cache, 2).is_some());
         keep(&cache, 4);
-        let left: Vec<u32> = (1..=4).filter(|n| cache.path_of(KIND, &key(*n)).exists()).collect();
+        let left: Vec<u32> = (1..=4).filter(|n| path_of(&cache, *n).exists()).collect();
         assert_eq!(left, [1, 2, 4]);
         assert!(foreign.iter().all(|name| folder.path().join(name).exists()));
         assert_eq!(cache.tally().not_kept, None);
@@ -316,24 +361,83 @@ mod tests {
     #[test]
     fn what_is_larger_than_the_cache_is_not_kept_and_nothing_goes_for_it() {
         let folder = tempfile::tempdir().expect("a folder");
-        keep(&cache(folder.path(), 1), 1);
-        let smaller = Cache::at(folder.path(), ENTRY_BYTES - 1).expect("a folder");
-        keep(&smaller, 2);
-        assert!(smaller.tally().not_kept.is_some_and(|reason| reason.contains("larger")));
-        assert_eq!(taken(&smaller, 1), Some(numbers(1)));
+        let cache = cache(folder.path(), 2);
+        keep(&cache, 1);
+        cache.keep(KIND, &key(2), |to| to.array(&vec![0u32; 1000]));
+        assert!(cache.tally().not_kept.is_some_and(|reason| reason.contains("larger")));
+        assert_eq!(taken(&cache, 1), Some(numbers(1)));
         let files = std::fs::read_dir(folder.path()).expect("a folder").count();
-        assert_eq!(files, 2, "the tag and one entry: no part is left");
+        assert_eq!(files, 1, "one entry: no part is left");
     }
 
     #[test]
     fn parts_of_processes_that_are_gone_are_removed() {
         let folder = tempfile::tempdir().expect("a folder");
         let cache = cache(folder.path(), 9);
-        let [old, new] = [".tmpOld.part", ".tmpNew.part"].map(|name| folder.path().join(name));
+        let [old, new] = [".supel-cache-old.part", ".supel-cache-new.part"].map(|name| folder.path().join(name));
         [&old, &new].into_iter().for_each(|part| std::fs::write(part, "half").expect("written"));
         let file = File::options().append(true).open(&old).expect("a part");
         file.set_modified(SystemTime::now() - 2 * ABANDONED).expect("a time");
         keep(&cache, 1);
         assert!(!old.exists() && new.exists());
+    }
+
+    /// A folder that somebody else has made may hold more than results.
+    #[test]
+    fn a_folder_is_made_when_it_is_needed_and_only_one_that_is_made_gets_the_tag() {
+        let place = tempfile::tempdir().expect("a folder");
+        let tag = |folder: &Path| folder.join(TAG).exists();
+        let made = place.path().join("a/b");
+        let first = cache(&made, 9);
+        assert!(!made.exists());
+        keep(&first, 1);
+        assert!(tag(&made) && taken(&first, 1).is_some());
+        let given = cache(place.path(), 9);
+        keep(&given, 1);
+        assert!(!tag(place.path()) && taken(&given, 1).is_some());
+        assert!(Cache::at(&path_of(&first, 1), 9).is_err(), "a file");
+    }
+
+    #[test]
+    fn a_smaller_cache_is_made_smaller() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let larger = cache(folder.path(), 3);
+        for (n, seconds) in [(1, 20), (2, 30), (3, 10)] {
+            keep(&larger, n);
+            used_at(&larger, n, seconds);
+        }
+        let smaller = cache(folder.path(), 1);
+        assert_eq!([1, 2, 3].map(|n| path_of(&smaller, n).exists()), [false, true, false]);
+    }
+
+    /// What a run has kept and had to give up again is not there for later ones.
+    #[test]
+    fn what_had_to_go_again_is_not_counted_as_kept() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = cache(folder.path(), 2);
+        for n in 1..=3 {
+            keep(&cache, n);
+        }
+        let tally = cache.tally();
+        assert_eq!(tally.kept, [(KIND, 2)].into());
+        assert!(tally.not_kept.is_some_and(|reason| reason.contains("no room for all")));
+    }
+
+    /// Links, pipes and files that nobody may read are none of its entries, and no later run meets them again.
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_named_and_removed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cache = cache(folder.path(), 9);
+        let other = folder.path().join("other");
+        std::fs::write(&other, "mine").expect("written");
+        let path = path_of(&cache, 1);
+        for target in [&other, Path::new("/dev/zero"), Path::new("nowhere")] {
+            std::os::unix::fs::symlink(target, &path).expect("a link");
+            assert_eq!(taken(&cache, 1), None);
+            assert!(path.symlink_metadata().is_err());
+        }
+        assert_eq!(cache.tally().damaged, [name_of(KIND, &key(1))].into());
+        assert_eq!(std::fs::read(&other).expect("still there"), b"mine");
     }
 }

@@ -35,19 +35,17 @@ impl CacheChoice {
         environment: impl Fn(&str) -> Option<OsString>,
     ) -> Result<Option<Self>> {
         let named = environment(FOLDER).filter(|name| !name.is_empty()).map(PathBuf::from);
-        let size = environment(SIZE).filter(|size| !size.is_empty());
-        // What is no number is refused as one.
-        let size = size.map(|size| size.to_str().and_then(|size| size.trim().parse().ok()).unwrap_or(f64::NAN));
-        let (key, gib) = match (gib, size) {
-            (Some(gib), _) => ("--cache-gib", gib),
-            (None, Some(gib)) => (SIZE, gib),
-            (None, None) => (SIZE, DEFAULT_GIB),
-        };
+        let typed = gib.map(|gib| bytes("--cache-gib", gib)).transpose()?;
         let Some(folder) = folder.map(Path::to_owned).or(named) else { return Ok(None) };
-        if !(gib > 0.0 && gib.is_finite()) {
-            return Err(Error::JobNumber { key: key.to_owned(), value: gib, expected: "more than zero" });
-        }
-        Ok(Some(Self { folder, most_bytes: bytes_of_gib(gib) }))
+        let most_bytes = match (typed, environment(SIZE).filter(|size| !size.is_empty())) {
+            (Some(typed), _) => typed,
+            (None, Some(size)) => {
+                let size = size.to_string_lossy();
+                bytes(&format!("{SIZE}={size}"), size.trim().parse().unwrap_or(f64::NAN))?
+            }
+            (None, None) => bytes_of_gib(DEFAULT_GIB),
+        };
+        Ok(Some(Self { folder, most_bytes }))
     }
 
     /// The words of a command line that chooses the same.
@@ -68,15 +66,23 @@ impl CacheChoice {
     /// What went wrong with it, one line each.
     pub(super) fn complaints(&self, tally: &Tally) -> Vec<String> {
         let folder = self.folder.display();
-        let damaged = (tally.n_damaged > 0).then(|| {
-            let entries = counted(tally.n_damaged, "damaged entry", "damaged entries");
-            format!("supel: cache {folder}: {entries} removed; what they held was computed anew")
+        let damaged = tally.damaged.first().map(|first| {
+            let entries = counted(tally.damaged.len(), "entry is", "entries are");
+            format!("supel: cache {folder}: {entries} damaged or unreadable, computed anew: {first}")
         });
         let not_kept = tally
             .not_kept
             .as_ref()
             .map(|reason| format!("supel: cache {folder}: not everything is kept for later runs: {reason}"));
         damaged.into_iter().chain(not_kept).collect()
+    }
+}
+
+/// Bytes of a size that is one; `key` says where it was typed.
+fn bytes(key: &str, gib: f64) -> Result<u64> {
+    match gib > 0.0 && gib.is_finite() {
+        true => Ok(bytes_of_gib(gib)),
+        false => Err(Error::JobNumber { key: key.to_owned(), value: gib, expected: "more than zero" }),
     }
 }
 
@@ -114,8 +120,8 @@ mod tests {
             (Some(0.0), None, "--cache-gib"),
             (Some(-1.0), Some("2"), "--cache-gib"),
             (Some(f64::NAN), None, "--cache-gib"),
-            (None, Some("much"), SIZE),
-            (None, Some("-2"), SIZE),
+            (None, Some("much"), "SUPEL_CACHE_GIB=much"),
+            (None, Some("-2"), "SUPEL_CACHE_GIB=-2"),
         ] {
             match chosen((Some("a"), gib), [None, size]) {
                 Err(Error::JobNumber { key: found, .. }) => assert_eq!(found, key),

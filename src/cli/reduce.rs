@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use supel_runtime::{StagedFile, Superelement};
 
 use super::answer::{Program, Terminal};
-use super::cache_choice::CacheChoice;
 use super::exit_code::ExitCode;
 use super::judging::{Answer, Strictness};
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
@@ -46,7 +45,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     if command.available_bytes.is_some() && terminal.program == Program::Supel {
         process::end_with_parent()?;
     }
-    let cache = command.cache.as_ref().map(CacheChoice::open).transpose()?;
+    let cache = opened_cache(command)?;
     let memory_bytes = command.available_bytes.or_else(memory::available_bytes);
     let resources = Resources { memory_bytes, cache: cache.as_ref() };
     let rehearsed = match terminal.program {
@@ -59,7 +58,15 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     let mut stage_line = StageLine::new(terminal.progress);
     let mut clock = StageClock::new(&mut stage_line);
     let outcome = threads.install(|| (pipeline.reduce)(&command.job, resources, &mut clock));
-    let Outcome { superelement, mut report } = outcome.map_err(|error| rehearsed.judge(error))?;
+    let of_cache = cache_complaints(command, cache.as_ref());
+    let Outcome { superelement, mut report } = match outcome {
+        Ok(outcome) => outcome,
+        Err(error) => {
+            drop(stage_line);
+            of_cache.iter().for_each(|complaint| terminal.complain(complaint));
+            return Err(rehearsed.judge(error));
+        }
+    };
     clock.stage("write");
     report.run.n_threads = command.threads.used;
     report.run.cache = cache.as_ref().map(Cache::tally);
@@ -70,12 +77,8 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     report.run.report = Some(command.job.write.report_path());
     let outputs = stage_all((command, &own), &report, superelement)?;
     // The answer is composed before the files are written: a lack of memory afterwards would be reported of a run that is done.
-    let answer = match command.answer {
-        Answer::Text => Some(summary(&report, terminal.paint)),
-        Answer::Json => Some(report.to_json()?),
-        Answer::Nothing => None,
-    };
-    complaints.extend(cache_complaints(command, &report));
+    let answer = composed(command.answer, &report, terminal)?;
+    complaints.extend(of_cache);
     complaints.splice(0..0, explanation(command, code));
     if command.answer == Answer::Nothing {
         complaints.splice(0..0, unmet(&report.body.checks, &report.body.warnings, command.strictness));
@@ -86,10 +89,30 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     Ok(code)
 }
 
-/// What went wrong with the cache of the run.
-fn cache_complaints(command: &ReduceCommand, report: &Report) -> Vec<String> {
-    let tallied = command.cache.as_ref().zip(report.run.cache.as_ref());
-    tallied.map_or_else(Vec::new, |(choice, tally)| choice.complaints(tally))
+/// What is said of a run that is done; nothing where that was asked for.
+fn composed(answer: Answer, report: &Report, terminal: &Terminal<'_>) -> Result<Option<String>> {
+    Ok(match answer {
+        Answer::Text => Some(summary(report, terminal.paint)),
+        Answer::Json => Some(report.to_json()?),
+        Answer::Nothing => None,
+    })
+}
+
+/// What went wrong with the cache of the run, which is no error.
+fn cache_complaints(command: &ReduceCommand, cache: Option<&Cache>) -> Vec<String> {
+    match (&command.cache, cache) {
+        (Some(choice), Some(cache)) if command.answer != Answer::Nothing => choice.complaints(&cache.tally()),
+        _ => Vec::new(),
+    }
+}
+
+/// The cache of the run, which is none of its files.
+fn opened_cache(command: &ReduceCommand) -> Result<Option<Cache>> {
+    let Some(choice) = &command.cache else { return Ok(None) };
+    let mut outputs = overwriting::outputs(&command.job.write);
+    outputs.push(("--cache", choice.folder.clone()));
+    OwnFiles::of(&overwriting::inputs(&command.job, command.document.as_deref()), &outputs)?;
+    choice.open().map(Some)
 }
 
 /// What the job asks for, where an earlier run has made all of it and nothing has changed since.

@@ -190,8 +190,7 @@ impl Partition {
             refuse_loose([stiffness, mass], &transformation, (names, &facts.rows))?;
             facts.n_bodies = n_bodies(stiffness, &transformation);
         }
-        findings.extend(far_origins);
-        findings.extend(hanging_dofs(stiffness, &transformation, (names, &facts.rows)));
+        findings.extend(far_origins.into_iter().chain(hanging_dofs(stiffness, &transformation, (names, &facts.rows))));
         Ok(Self {
             cancellation: carried.cancellation,
             fit: model.fit,

@@ -40,6 +40,10 @@ fn of_kind<'a>(entries: &'a [PathBuf], kind: &str) -> Vec<&'a Path> {
     entries.iter().filter(is_of).map(PathBuf::as_path).collect()
 }
 
+fn names_of<P: AsRef<Path>>(paths: &[P]) -> Vec<&str> {
+    paths.iter().map(|path| path.as_ref().file_name().and_then(|name| name.to_str()).expect("a name")).collect()
+}
+
 #[track_caller]
 fn assert_same(found: &Written, expected: &Written, what: &str) {
     assert!(found.0 == expected.0, "the superelement differs: {what}");
@@ -72,7 +76,7 @@ fn a_cache_changes_no_bit_of_any_method() {
             let (warm, of_warm, _) = cached(&place, &what);
             assert_same(&warm, &plain, &format!("{what}, warm"));
             assert_eq!((&of_warm["taken"], &of_warm["kept"]), (&of_cold["kept"], &json!({})), "{what}");
-            assert_eq!(of_warm["n_damaged"], 0, "{what}");
+            assert_eq!(of_warm["damaged"], json!([]), "{what}");
         }
     }
 }
@@ -147,7 +151,8 @@ fn damage_is_noticed_said_and_mended() {
     let all = entries(&place);
     let n_kept = ["factor", "count", "modes"].map(|kind| of_cold["kept"][kind].as_u64().expect("kept"));
     assert_eq!(n_kept.iter().sum::<u64>(), all.len() as u64);
-    let harms: [&dyn Fn(&mut Vec<u8>); 4] = [
+    type Harm<'a> = &'a dyn Fn(&mut Vec<u8>);
+    let harms: [Harm<'_>; 4] = [
         &|bytes| bytes.clear(),
         &|bytes| bytes.truncate(bytes.len() / 2),
         &|bytes| {
@@ -165,8 +170,8 @@ fn damage_is_noticed_said_and_mended() {
         let (found, of_cache, ended) = cached(&place, &words);
         assert_same(&found, &plain, "damaged");
         assert_eq!((&of_cache["taken"], &of_cache["kept"]), (&json!({}), &of_cold["kept"]));
-        assert_eq!(of_cache["n_damaged"], all.len());
-        assert!(ended.err.contains(&format!("{} damaged entries removed", all.len())), "{}", ended.err);
+        assert_eq!(of_cache["damaged"], json!(names_of(&all)));
+        assert!(ended.err.contains(&format!("{} entries are damaged", all.len())), "{}", ended.err);
     }
     let modes = of_kind(&all, "modes");
     let contents: Vec<Vec<u8>> = modes.iter().map(|path| fs::read(path).expect("an entry")).collect();
@@ -176,7 +181,7 @@ fn damage_is_noticed_said_and_mended() {
     }
     let (found, of_cache, _) = cached(&place, &words);
     assert_same(&found, &plain, "exchanged");
-    assert_eq!(of_cache["n_damaged"], modes.len());
+    assert_eq!(of_cache["damaged"], json!(names_of(&modes)));
 }
 
 #[test]
@@ -195,6 +200,22 @@ fn a_small_cache_keeps_what_fits_and_says_so() {
 }
 
 #[test]
+fn a_run_that_keeps_nothing_makes_no_folder_and_a_quiet_one_is_quiet() {
+    let place = Place::with_brick();
+    let words = format!("{RIGID} {PLAIN}");
+    let cache = format!("--cache {}", place.text("cache"));
+    let missing = format!("--interface root=1000 --method craig-bampton --modes 6 {cache}");
+    place.reduce(&place.model_flags(), &missing).expect(ExitCode::InputData);
+    assert!(!place.path("cache").exists());
+    cached(&place, &words);
+    for path in of_kind(&entries(&place), "count") {
+        fs::write(path, "").expect("written");
+    }
+    let quiet = place.reduce(&place.model_flags(), &format!("{words} {cache} --quiet"));
+    assert_eq!((quiet.code, quiet.err.as_str()), (ExitCode::Done, ""));
+}
+
+#[test]
 fn what_can_be_no_cache_is_refused() {
     let place = Place::with_brick();
     place.write("file", b"not a folder");
@@ -202,6 +223,8 @@ fn what_can_be_no_cache_is_refused() {
         (format!("--cache {}", place.text("file")), ExitCode::Io, "E-WRITE"),
         (format!("--cache {} --cache-gib 0", place.text("cache")), ExitCode::Usage, "--cache-gib"),
         (format!("--cache {} --cache-gib nan", place.text("cache")), ExitCode::Usage, "--cache-gib"),
+        ("--cache-gib -5".to_owned(), ExitCode::Usage, "--cache-gib"),
+        (format!("--cache {}", place.text("x.supel")), ExitCode::Usage, "E-OUTPUT-TWICE"),
     ] {
         let ended = place.reduce(&place.model_flags(), &format!("{RIGID} {PLAIN} {flags}")).expect(code);
         assert!(ended.err.contains(words), "{}", ended.err);
@@ -265,7 +288,7 @@ fn processes_share_a_cache() {
             let output = process.wait_with_output().expect("it ends");
             let answer: Value = serde_json::from_slice(&output.stdout).expect("JSON");
             let cache = &answer["run"]["cache"];
-            assert_eq!((&cache["n_damaged"], &cache["not_kept"]), (&json!(0), &Value::Null), "{cache}");
+            assert_eq!((&cache["damaged"], &cache["not_kept"]), (&json!([]), &Value::Null), "{cache}");
             // Who comes late to the first round may find everything.
             assert!(round == 0 || cache["kept"] == json!({}), "{cache}");
         }

@@ -190,7 +190,7 @@ fn run_facts() -> RunFacts {
         cache: Some(Tally {
             taken: [(Kind::Factor, 1), (Kind::Count, 2)].into(),
             kept: [(Kind::Modes, 1)].into(),
-            n_damaged: 0,
+            damaged: BTreeSet::new(),
             not_kept: None,
         }),
     }
