@@ -33,6 +33,29 @@ pub(crate) fn keep_all() {
     FILES.iter().for_each(|place| place.store(std::ptr::null_mut(), Ordering::SeqCst));
 }
 
+/// A file that is removed where the process ends while this value lives.
+pub(crate) struct RemovedAtEnd(Option<Name>);
+
+impl RemovedAtEnd {
+    pub(crate) fn of(file: &Path) -> Self {
+        remove_at_end(file);
+        Self(name(file))
+    }
+}
+
+impl Drop for RemovedAtEnd {
+    #[allow(unsafe_code)]
+    fn drop(&mut self) {
+        for place in &FILES {
+            let held = place.load(Ordering::SeqCst);
+            // SAFETY: null, or a box that `remove_at_end` leaked.
+            if unsafe { held.as_ref() } == self.0.as_ref() {
+                let _ = place.compare_exchange(held, std::ptr::null_mut(), Ordering::SeqCst, Ordering::SeqCst);
+            }
+        }
+    }
+}
+
 /// Removes the files. A signal handler may call it: it neither locks nor allocates.
 #[allow(unsafe_code)]
 pub(crate) fn remove_all() {

@@ -42,11 +42,14 @@ pub(crate) struct Writer<'a> {
     file: BufWriter<&'a File>,
     hasher: blake3::Hasher,
     n_bytes: u64,
+    max_bytes: u64,
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(file: &'a File, key: &Digest) -> std::io::Result<Self> {
-        let mut new = Self { file: BufWriter::with_capacity(BLOCK, file), hasher: blake3::Hasher::new(), n_bytes: 0 };
+    /// An entry of so many bytes at most.
+    pub(super) fn new(file: &'a File, key: &Digest, max_bytes: u64) -> std::io::Result<Self> {
+        let file = BufWriter::with_capacity(BLOCK, file);
+        let mut new = Self { file, hasher: blake3::Hasher::new(), n_bytes: DIGEST_BYTES, max_bytes };
         new.bytes(MAGIC)?;
         new.bytes(key)?;
         Ok(new)
@@ -54,6 +57,9 @@ impl<'a> Writer<'a> {
 
     fn bytes(&mut self, bytes: &[u8]) -> std::io::Result<()> {
         self.n_bytes += bytes.len() as u64;
+        if self.n_bytes > self.max_bytes {
+            return Err(std::io::Error::other("it is larger than the cache may be"));
+        }
         for block in bytes.chunks(BLOCK) {
             self.hasher.update(block);
             self.file.write_all(block)?;
@@ -84,7 +90,7 @@ impl<'a> Writer<'a> {
         let digest = self.hasher.finalize();
         self.file.write_all(digest.as_bytes())?;
         self.file.flush()?;
-        Ok(self.n_bytes + DIGEST_BYTES)
+        Ok(self.n_bytes)
     }
 }
 
@@ -93,6 +99,8 @@ pub(crate) struct Reader<'a> {
     file: BufReader<&'a File>,
     hasher: blake3::Hasher,
     n_left: u64,
+    /// Whether there was no memory for an array.
+    pub(super) lacks_memory: bool,
 }
 
 impl<'a> Reader<'a> {
@@ -100,7 +108,7 @@ impl<'a> Reader<'a> {
     pub(super) fn new(file: &'a File, key: &Digest) -> Option<Self> {
         let n_left = file.metadata().ok()?.len().checked_sub(DIGEST_BYTES)?;
         let file = BufReader::with_capacity(BLOCK, file);
-        let mut new = Self { file, hasher: blake3::Hasher::new(), n_left };
+        let mut new = Self { file, hasher: blake3::Hasher::new(), n_left, lacks_memory: false };
         let (mut magic, mut found) = ([0; MAGIC.len()], Digest::default());
         new.bytes(&mut magic)?;
         new.bytes(&mut found)?;
@@ -126,7 +134,10 @@ impl<'a> Reader<'a> {
             return None;
         }
         let length = usize::try_from(u64::from_le_bytes(length)).ok()?;
-        let mut values = fallibly(|| bytemuck::allocation::try_zeroed_vec(length)).ok()?;
+        let Ok(mut values) = fallibly(|| bytemuck::allocation::try_zeroed_vec(length)) else {
+            self.lacks_memory = true;
+            return None;
+        };
         self.bytes(bytemuck::cast_slice_mut(&mut values))?;
         Some(values)
     }

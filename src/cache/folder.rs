@@ -1,8 +1,8 @@
-//! The folder of a cache: what is in it, and how much.
+//! The folder of a cache: takes entries, keeps them, and removes what there is no room for.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::fs::{File, Metadata};
+use std::fs::File;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -13,6 +13,7 @@ use serde::Serialize;
 use super::entry::{Reader, Writer};
 use super::key::Key;
 use crate::error::{Error, Result};
+use crate::unfinished::RemovedAtEnd;
 
 /// What an entry holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -37,7 +38,7 @@ impl Kind {
         }
     }
 
-    /// That of an entry, by the name of its file.
+    /// The kind of an entry that has its name; none of any other file.
     fn of(name: &str) -> Option<Self> {
         let (kind, key) = name.strip_suffix(ENTRY)?.split_once('-')?;
         let is_key = key.len() == 64 && key.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
@@ -65,7 +66,7 @@ pub struct Cache(Arc<Shared>);
 #[derive(Debug)]
 struct Shared {
     folder: PathBuf,
-    most_bytes: u64,
+    max_bytes: u64,
     tally: Mutex<Tally>,
     /// Names of the entries that the run has made.
     own: Mutex<BTreeMap<String, Kind>>,
@@ -85,12 +86,12 @@ impl Cache {
     ///
     /// # Errors
     /// [`Error::Write`] where something else has that name.
-    pub fn at(folder: &Path, most_bytes: u64) -> Result<Self> {
+    pub fn at(folder: &Path, max_bytes: u64) -> Result<Self> {
         if std::fs::metadata(folder).is_ok_and(|facts| !facts.is_dir()) {
             return Err(Error::Write { path: folder.to_owned(), source: ErrorKind::NotADirectory.into() });
         }
         let (tally, own) = (Mutex::default(), Mutex::default());
-        let cache = Self(Arc::new(Shared { folder: folder.to_owned(), most_bytes, tally, own }));
+        let cache = Self(Arc::new(Shared { folder: folder.to_owned(), max_bytes, tally, own }));
         // It may have been larger before.
         let _ = cache.make_room(0);
         Ok(cache)
@@ -109,19 +110,23 @@ impl Cache {
     pub(crate) fn take<T>(&self, kind: Kind, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
         let name = name_of(kind, key);
         let path = self.0.folder.join(&name);
-        let facts = std::fs::symlink_metadata(&path).ok()?;
-        let found = taken(&path, &facts, key, read);
-        if found.is_none() {
-            // Where it is gone meanwhile another process has made room.
-            path.symlink_metadata().ok()?;
-            locked(&self.0.tally).damaged.insert(name);
-            let _ = std::fs::remove_file(&path);
-            return None;
-        }
+        let found = match found(&path, key, read) {
+            Found::Result(found) => found,
+            Found::Nothing => return None,
+            found @ (Found::Damaged | Found::Unreadable) => {
+                if matches!(found, Found::Damaged) {
+                    let _ = std::fs::remove_file(&path);
+                }
+                locked(&self.0.tally).damaged.insert(name);
+                return None;
+            }
+        };
         // The times say what was used last.
         let _ = File::options().append(true).open(&path).and_then(|file| file.set_modified(SystemTime::now()));
-        *locked(&self.0.tally).taken.entry(kind).or_default() += 1;
-        found
+        if !locked(&self.0.own).contains_key(&name) {
+            *locked(&self.0.tally).taken.entry(kind).or_default() += 1;
+        }
+        Some(found)
     }
 
     /// Keeps a result under a key, by `write`. What cannot be kept is tallied, and no error.
@@ -143,12 +148,10 @@ impl Cache {
     ) -> std::io::Result<()> {
         self.make_folder()?;
         let part = new_part(&self.0.folder)?;
-        let mut writer = Writer::new(part.as_file(), &key.digest())?;
+        let _removed = RemovedAtEnd::of(part.path());
+        let mut writer = Writer::new(part.as_file(), &key.digest(), self.0.max_bytes)?;
         write(&mut writer)?;
         let n_bytes = writer.finish()?;
-        if n_bytes > self.0.most_bytes {
-            return Err(std::io::Error::other("it is larger than the cache may be"));
-        }
         self.make_room(n_bytes)?;
         part.persist(self.0.folder.join(name)).map_err(|error| error.error)?;
         Ok(())
@@ -186,11 +189,15 @@ impl Cache {
         entries.sort();
         let mut total = entries.iter().map(|(_, n_bytes, _)| n_bytes).sum::<u64>() + n_bytes;
         for (_, n_bytes, name) in entries {
-            if total <= self.0.most_bytes {
+            if total <= self.0.max_bytes {
                 break;
             }
-            // Another process may have been faster.
-            let _ = std::fs::remove_file(self.0.folder.join(&name));
+            match std::fs::remove_file(self.0.folder.join(&name)) {
+                Ok(()) => {}
+                // Another process was faster.
+                Err(error) if error.kind() == ErrorKind::NotFound => {}
+                Err(_) => continue,
+            }
             total -= n_bytes;
             if let Some(kind) = locked(&self.0.own).remove(&name) {
                 let reason = format!("{}: the cache has no room for all results of the run", kind.name());
@@ -201,12 +208,37 @@ impl Cache {
     }
 }
 
-/// The content of a file that may be an entry; what is no regular file may have no end.
-fn taken<T>(path: &Path, facts: &Metadata, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
-    let file = facts.is_file().then(|| File::open(path).ok()).flatten()?;
-    let mut reader = Reader::new(&file, &key.digest())?;
-    let found = read(&mut reader)?;
-    reader.ends_whole().then_some(found)
+/// What is under the name of an entry.
+enum Found<T> {
+    Result(T),
+    /// Nothing, or nothing that there is memory for.
+    Nothing,
+    /// Other bytes than were written, or what is no file.
+    Damaged,
+    /// The system does not say.
+    Unreadable,
+}
+
+fn found<T>(path: &Path, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Found<T> {
+    match std::fs::symlink_metadata(path) {
+        Ok(facts) if facts.is_file() => {}
+        // A pipe or a device may have no end.
+        Ok(_) => return Found::Damaged,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Found::Nothing,
+        Err(_) => return Found::Unreadable,
+    }
+    let file = match File::open(path) {
+        Ok(file) => file,
+        // Another process has made room.
+        Err(error) if error.kind() == ErrorKind::NotFound => return Found::Nothing,
+        Err(_) => return Found::Unreadable,
+    };
+    let Some(mut reader) = Reader::new(&file, &key.digest()) else { return Found::Damaged };
+    match read(&mut reader) {
+        None if reader.lacks_memory => Found::Nothing,
+        Some(found) if reader.ends_whole() => Found::Result(found),
+        _ => Found::Damaged,
+    }
 }
 
 fn name_of(kind: Kind, key: &Key) -> String {

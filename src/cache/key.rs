@@ -3,6 +3,7 @@
 use std::fmt::{self, Write};
 use std::fs::File;
 use std::sync::OnceLock;
+use std::time::SystemTime;
 
 use bytemuck::NoUninit;
 use faer::MatRef;
@@ -87,11 +88,20 @@ fn program() -> &'static Digest {
     PROGRAM.get_or_init(|| {
         let mut hasher = blake3::Hasher::new();
         hasher.update(env!("CARGO_PKG_VERSION").as_bytes());
-        // One that the system does not name is known by its version.
-        let bytes = std::env::current_exe().and_then(File::open);
-        let _ = bytes.and_then(|bytes| hasher.update_reader(bytes).map(|_| ()));
+        if running().and_then(|bytes| hasher.update_reader(bytes).map(|_| ())).is_err() {
+            // One that cannot be read finds nothing but what it has kept itself.
+            hasher.update(format!("{} {:?}", std::process::id(), SystemTime::now()).as_bytes());
+        }
         *hasher.finalize().as_bytes()
     })
+}
+
+/// The file of the running program. By its name another build may be found that was installed since.
+fn running() -> std::io::Result<File> {
+    match cfg!(target_os = "linux") {
+        true => File::open("/proc/self/exe"),
+        false => File::open(std::env::current_exe()?),
+    }
 }
 
 /// What decides how sums are rounded: with other vectors dense kernels add in another order.
@@ -99,6 +109,10 @@ fn instructions() -> String {
     #[cfg(target_arch = "x86_64")]
     let vectors = [
         std::arch::is_x86_feature_detected!("avx512f"),
+        std::arch::is_x86_feature_detected!("avx512bw"),
+        std::arch::is_x86_feature_detected!("avx512cd"),
+        std::arch::is_x86_feature_detected!("avx512dq"),
+        std::arch::is_x86_feature_detected!("avx512vl"),
         std::arch::is_x86_feature_detected!("avx2"),
         std::arch::is_x86_feature_detected!("fma"),
     ];

@@ -6,7 +6,7 @@
 //! FOLDER/….part                  one that is being written
 //!
 //! entry    "supel cache 1\n" · key, 32 bytes · arrays · BLAKE3 of all before, 32 bytes
-//! array    tag of its type, 1 byte · length, 8 bytes · values, little-endian
+//! array    tag of its type, 1 byte · length, 8 bytes · values, in the order of the processor
 //! ```
 //! An entry is the result of a function to the last bit, and its key is a digest of all that the function takes, of the bytes of the program
 //! and of the instructions of the processor, which decide how sums are rounded. So a run with a cache writes the bytes that a run

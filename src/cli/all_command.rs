@@ -69,7 +69,7 @@ impl AllCommand {
             let key = "--memory-gib".to_owned();
             return Err(Error::JobNumber { key, value, expected: "more than zero" });
         }
-        // Each run chooses its cache by itself; what is wrong with the choice is said once.
+        // Each run chooses its cache by itself; a size that is none is said once.
         CacheChoice::of(run)?;
         Ok(Self {
             members: jobs.into_iter().map(|(name, document)| Member::of(name, document, (output, run))).collect(),

@@ -17,8 +17,10 @@ const DEFAULT_GIB: f64 = 10.0;
 /// A folder, and how large it may become.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CacheChoice {
+    /// The flag or the variable that names the folder.
+    pub(super) key: &'static str,
     pub(super) folder: PathBuf,
-    most_bytes: u64,
+    max_bytes: u64,
 }
 
 impl CacheChoice {
@@ -34,10 +36,11 @@ impl CacheChoice {
         (folder, gib): (Option<&Path>, Option<f64>),
         environment: impl Fn(&str) -> Option<OsString>,
     ) -> Result<Option<Self>> {
-        let named = environment(FOLDER).filter(|name| !name.is_empty()).map(PathBuf::from);
+        let typed_folder = folder.map(|folder| ("--cache", folder.to_owned()));
+        let named = || Some((FOLDER, environment(FOLDER).filter(|name| !name.is_empty())?.into()));
         let typed = gib.map(|gib| bytes("--cache-gib", gib)).transpose()?;
-        let Some(folder) = folder.map(Path::to_owned).or(named) else { return Ok(None) };
-        let most_bytes = match (typed, environment(SIZE).filter(|size| !size.is_empty())) {
+        let Some((key, folder)) = typed_folder.or_else(named) else { return Ok(None) };
+        let max_bytes = match (typed, environment(SIZE).filter(|size| !size.is_empty())) {
             (Some(typed), _) => typed,
             (None, Some(size)) => {
                 let size = size.to_string_lossy();
@@ -45,7 +48,7 @@ impl CacheChoice {
             }
             (None, None) => bytes_of_gib(DEFAULT_GIB),
         };
-        Ok(Some(Self { folder, most_bytes }))
+        Ok(Some(Self { key, folder, max_bytes }))
     }
 
     /// The words of a command line that chooses the same.
@@ -60,7 +63,7 @@ impl CacheChoice {
     /// # Errors
     /// Those of [`Cache::at`].
     pub(super) fn open(&self) -> Result<Cache> {
-        Cache::at(&self.folder, self.most_bytes)
+        Cache::at(&self.folder, self.max_bytes)
     }
 
     /// What went wrong with it, one line each.
@@ -100,15 +103,16 @@ mod tests {
 
     #[test]
     fn flags_go_before_the_environment() {
-        let choice = |folder: &str, gib| Some(CacheChoice { folder: folder.into(), most_bytes: bytes_of_gib(gib) });
+        let choice =
+            |key, folder: &str, gib| Some(CacheChoice { key, folder: folder.into(), max_bytes: bytes_of_gib(gib) });
         for (flags, environment, expected) in [
             ((None, None), [None, None], None),
             ((None, None), [Some(""), Some("")], None),
             ((None, Some(HALF)), [None, None], None),
-            ((Some("a"), None), [None, None], choice("a", DEFAULT_GIB)),
-            ((Some("a"), None), [Some("b"), Some("2")], choice("a", 2.0)),
-            ((None, None), [Some("b"), Some("2")], choice("b", 2.0)),
-            ((None, Some(HALF)), [Some("b"), Some("2")], choice("b", HALF)),
+            ((Some("a"), None), [None, None], choice("--cache", "a", DEFAULT_GIB)),
+            ((Some("a"), None), [Some("b"), Some("2")], choice("--cache", "a", 2.0)),
+            ((None, None), [Some("b"), Some("2")], choice(FOLDER, "b", 2.0)),
+            ((None, Some(HALF)), [Some("b"), Some("2")], choice(FOLDER, "b", HALF)),
         ] {
             assert_eq!(chosen(flags, environment).expect("sizes"), expected, "{flags:?} {environment:?}");
         }

@@ -106,11 +106,11 @@ fn cache_complaints(command: &ReduceCommand, cache: Option<&Cache>) -> Vec<Strin
     }
 }
 
-/// The cache of the run, which is none of its files.
+/// The cache of the run. A folder that is an input or an output of it is refused.
 fn opened_cache(command: &ReduceCommand) -> Result<Option<Cache>> {
     let Some(choice) = &command.cache else { return Ok(None) };
     let mut outputs = overwriting::outputs(&command.job.write);
-    outputs.push(("--cache", choice.folder.clone()));
+    outputs.push((choice.key, choice.folder.clone()));
     OwnFiles::of(&overwriting::inputs(&command.job, command.document.as_deref()), &outputs)?;
     choice.open().map(Some)
 }

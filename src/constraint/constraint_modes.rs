@@ -37,7 +37,9 @@ impl ConstraintModes<'_> {
     /// Goes on with the key of what is made of them and of the partition.
     pub(crate) fn key(&self, key: Key) -> Key {
         // Operators take them as they are stored, or make them again by solves.
-        key.text(self.modes.form()).shown(&self.attachment.is_some()).columns(self.stiffness.as_ref())
+        let Carried { motions, lift } = &self.carried;
+        let key = key.text(self.modes.form()).shown(&self.attachment.is_some()).columns(self.stiffness.as_ref());
+        key.columns(motions.as_ref()).columns(lift.as_ref())
     }
 }
 

@@ -88,8 +88,10 @@ impl<'a> Search<'a> {
     /// Those of [`ModeSource::lowest`]; a solve that did not come down to rounding.
     pub fn lowest_or_earlier(&self, seed: u64) -> Result<Modes> {
         let factor = self.problem.component.factor;
-        // What refinement took of a factor in single precision is part of the report, and nobody knows it without the solves.
-        let cache = self.problem.component.partition.cache().filter(|_| factor.storage() == Storage::Double);
+        // What refinement took of a factor in single precision is part of the report, and nobody knows it without the solves. The other
+        // eigensolver is a library of the system, whose bytes no key sees.
+        let is_kept = factor.storage() == Storage::Double && self.eigensolver == Eigensolver::Lanczos;
+        let cache = self.problem.component.partition.cache().filter(|_| is_kept);
         recalled(cache, || self.key(seed), || factor.vouched(self.lowest(seed)))
     }
 

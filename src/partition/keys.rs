@@ -27,7 +27,7 @@ impl Partition {
         self.begun(function, |earlier| &earlier.matrices, digest)
     }
 
-    /// The key of what a function makes of K, M and all that is known of their roundings.
+    /// The key of what a function makes of K, M and all that is known of their roundings, of a partition to which nothing is added any more.
     pub(crate) fn key(&self, function: &str) -> Key {
         self.begun(function, |earlier| &earlier.whole, || self.whole())
     }
@@ -62,7 +62,7 @@ impl Partition {
             cancellation,
             patches,
             mass_patches,
-            // Names and outputs, and what is made of the fields above.
+            // Names, outputs and facts, and what is made of the fields above. Who asks the facts of the model adds them to the key.
             interface: _,
             left_out: _,
             followers: _,

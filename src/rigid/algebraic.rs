@@ -40,7 +40,9 @@ pub(crate) struct ZeroModes {
 /// # Errors
 /// As [`from_matrices`].
 pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
-    recalled(partition.cache(), || partition.key("zero modes"), || found_zero_modes(partition))
+    // More of them than bodies can have are looked at twice.
+    let key = || partition.key("zero modes").numbers(&[partition.model.n_bodies]);
+    recalled(partition.cache(), key, || found_zero_modes(partition))
 }
 
 fn found_zero_modes(partition: &Partition) -> Result<ZeroModes> {

@@ -9,7 +9,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::{Evidence, data_noise};
 use super::loads::root_of_energy;
 use super::residual::{Residuals, Rows, Worst};
@@ -45,7 +45,7 @@ fn orthogonality(evidence: &Evidence<'_>, attachment: &Attachment) -> Check {
     }
     // A is free of rigid-body motion to rounding; the inverse of A_B puts it together from terms as much larger.
     let arithmetic = NOISE_FACTOR * f64::EPSILON * attachment.condition;
-    let limits = Limits { engineering: 1e-12, arithmetic, data: 0.0 }.capped(FAIL, MOST_EXCUSED);
+    let limits = Limits { engineering: 1e-12, arithmetic, data: 0.0 }.capped(FAIL, MAX_EXCUSE);
     Check {
         id: "M-22",
         name: "attachment modes are free of rigid-body motion",
@@ -79,7 +79,7 @@ fn equilibrium(evidence: &Evidence<'_>, attachment: &Attachment) -> Check {
         explained.take_columns(&rows, columns, [answers, of_motion.as_ref(), terms.as_ref()]);
     }
     let limits = Limits { engineering: 1e-12, arithmetic: explained.value, data: data_noise(partition) };
-    let limits = limits.capped(FAIL, MOST_EXCUSED);
+    let limits = limits.capped(FAIL, MAX_EXCUSE);
     Check {
         id: "M-22",
         name: "attachment modes are in equilibrium with inertia",
@@ -117,7 +117,7 @@ pub(super) fn flexibility(evidence: &Evidence<'_>) -> Option<Check> {
         }
     }
     let name = |dof: usize| evidence.partition.name_of(n_i + dof);
-    let limits = Limits { engineering: 1e-10, ..rounding(evidence, attachment) }.capped(FAIL, MOST_EXCUSED);
+    let limits = Limits { engineering: 1e-10, ..rounding(evidence, attachment) }.capped(FAIL, MAX_EXCUSE);
     Some(Check {
         id: "M-17",
         name: "flexibility of the interface is preserved",
@@ -162,7 +162,7 @@ fn answered(evidence: &Evidence<'_>, attachment: &Attachment) -> Vec<Check> {
             worst: Some(facts[worst.1].name.clone()),
         })
     };
-    let exact = Limits { engineering: ANSWERED, ..rounding(evidence, attachment) }.capped(1e-3, MOST_EXCUSED);
+    let exact = Limits { engineering: ANSWERED, ..rounding(evidence, attachment) }.capped(1e-3, MAX_EXCUSE);
     let judged = of_kind(true, "static answer to loads with residual vectors", (exact, exact.value().max(1e-6)));
     let shown = of_kind(false, "static answer to loads without residual vectors", (Limits::NONE, f64::INFINITY));
     judged.into_iter().chain(shown).collect()

@@ -3,7 +3,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::Evidence;
 use super::residual::{Residuals, Rows, Worst};
 use super::solves::{Statics, column_is, constraint_panel, statics};
@@ -56,7 +56,7 @@ fn orthogonality(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
         name: "attachment modes are free of rigid-body motion",
         equation: "max ‖UᵀMΨ_R‖ / ‖Ψ_R‖_M (49), U of unit mass",
         value: worst.0,
-        limits: limits.capped(FAIL, MOST_EXCUSED),
+        limits: limits.capped(FAIL, MAX_EXCUSE),
         fail_above: limits.value().max(FAIL),
         worst: Some(format!("attachment mode {}", worst.1 + 1)),
     })
@@ -110,7 +110,7 @@ fn equilibrium(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
         }
     }
     let limits = Limits { engineering: ENGINEERING, arithmetic: rounding, data: explained.value };
-    let limits = limits.capped(LARGEST_ROUNDING, MOST_EXCUSED);
+    let limits = limits.capped(LARGEST_ROUNDING, MAX_EXCUSE);
     Ok(Check {
         id: "M-22",
         name: "attachment modes are in equilibrium with inertia",

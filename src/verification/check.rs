@@ -60,9 +60,9 @@ impl Limits {
     }
 }
 
-/// The most that arithmetic and data excuse of a residual relative to its terms, which is one at most: in dofs of another order it is a tenth
-/// and more.
-pub(crate) const MOST_EXCUSED: f64 = 1e-2;
+/// The most that arithmetic and data excuse of a relative measure. One part in a hundred is an error that anybody would see, and where rows
+/// are exchanged residuals relative to their terms are of the order of one.
+pub(crate) const MAX_EXCUSE: f64 = 1e-2;
 
 /// How many times its limit a value is at least where a check fails.
 const FAR_ABOVE: f64 = 2.0;

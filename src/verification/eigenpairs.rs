@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 use faer::Mat;
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::Evidence;
 use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
@@ -141,7 +141,7 @@ fn residual_limits(evidence: &Evidence<'_>) -> Limits {
 pub(super) fn backward_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Check {
     const FAIL: f64 = 1e-10;
     let limits = Limits { engineering: 1e-13, ..residual_limits(evidence) };
-    let limits = limits.capped(FAIL.max(mixed_by_rounding(evidence)), MOST_EXCUSED);
+    let limits = limits.capped(FAIL.max(mixed_by_rounding(evidence)), MAX_EXCUSE);
     Check {
         id: "M-01",
         name: "modes satisfy the full model",
@@ -161,7 +161,7 @@ pub(super) fn componentwise_error(evidence: &Evidence<'_>, pairs: &Pairs) -> Che
     let (of_norm, in_one_row) = (residual_limits(evidence), pairs.concentration / AT_REST);
     let limits =
         Limits { engineering: 1e-11, arithmetic: of_norm.arithmetic * in_one_row, data: of_norm.data * in_one_row };
-    let limits = limits.capped(FAIL.max(mixed_by_rounding(evidence) * in_one_row).min(MOST_MIXED), MOST_EXCUSED);
+    let limits = limits.capped(FAIL.max(mixed_by_rounding(evidence) * in_one_row).min(MOST_MIXED), MAX_EXCUSE);
     Check {
         id: "M-02",
         name: "modes satisfy every row of the full model",
@@ -221,7 +221,7 @@ pub(super) fn stiffness_orthogonality(evidence: &Evidence<'_>, pairs: &Pairs) ->
     let limits = Limits { engineering: 1e-10, arithmetic, data };
     // A thousandth is what measured modes are accepted with. What the digits explain beyond it is a warning in addition to M-09,
     // up to a hundredth.
-    let explained = limits.capped(1e-3, MOST_EXCUSED).value();
+    let explained = limits.capped(1e-3, MAX_EXCUSE).value();
     let limits = limits.capped(1e-3, 1e-3);
     Check {
         id: "M-04",

@@ -3,7 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::conditioning::{Columns, independence};
 use super::directions::Directions;
 use super::evidence::{Evidence, data_noise};
@@ -59,7 +59,7 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
         let of_parts = evidence.basis.n_dynamic() as f64 * f64::EPSILON / least;
         let arithmetic = f64::EPSILON * condition + left + of_parts;
         // The condition is that of the matrix, not of this solve; a thousandth of a deflection makes no difference.
-        Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(1e-3, MOST_EXCUSED)
+        Limits { engineering: 1e-9, arithmetic, data: data_noise(partition) * condition }.capped(1e-3, MAX_EXCUSE)
     } else {
         Limits::NONE
     };

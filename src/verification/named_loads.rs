@@ -1,6 +1,6 @@
 //! Static answers to the loads of the job: M-27.
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::Evidence;
 use super::loads::{reduced_deflections, root_of_energy};
 use crate::basis::ANSWERED;
@@ -29,7 +29,7 @@ pub(super) fn checks(evidence: &Evidence<'_>, lacking: Option<&[f64]>, condition
     let loads = &evidence.partition.loads.facts;
     // The condition is that of the matrix, not of this solve; a thousandth of a deflection makes no difference.
     let exact =
-        Limits { engineering: ANSWERED, arithmetic: f64::EPSILON * condition, data: 0.0 }.capped(1e-3, MOST_EXCUSED);
+        Limits { engineering: ANSWERED, arithmetic: f64::EPSILON * condition, data: 0.0 }.capped(1e-3, MAX_EXCUSE);
     let of_kind = |has_residual_vector: bool, name: &'static str, (limits, fail_above): (Limits, f64)| {
         let of_kind = loads.iter().zip(lacking).filter(|(load, _)| load.has_residual_vector == has_residual_vector);
         let worst = of_kind.reduce(|worst, next| if dense::worse(*next.1, *worst.1) { next } else { worst })?;

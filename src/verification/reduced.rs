@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use faer::MatRef;
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::conditioning::{Columns, independence};
 use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use super::limits::{self, HARMLESS_COUPLING, Judged};
@@ -74,7 +74,7 @@ pub(super) fn block_coupling(evidence: &Evidence<'_>, terms: &Terms) -> Check {
     let share = NOISE_FACTOR * (terms.interface * terms.dynamic).sqrt();
     let limits =
         Limits { engineering: 1e-10, arithmetic: share * f64::EPSILON, data: share * data_noise(evidence.partition) };
-    let limits = limits.capped(FAIL, MOST_EXCUSED);
+    let limits = limits.capped(FAIL, MAX_EXCUSE);
     Check {
         id: "M-13",
         name: "interface and modes are uncoupled in stiffness",
@@ -118,7 +118,7 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>, of_digits: f64) -> Check {
         reduction.n_reduced() as f64 * f64::EPSILON / independence(evidence, Columns::BeforeResidualVectors).0;
     let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes)).max(coupling_rounding(modes));
     let limits = Limits { engineering: 1e-12, arithmetic, data: zero.data.max(of_digits) };
-    let limits = limits.capped(MOST_EXCUSED, MOST_EXCUSED);
+    let limits = limits.capped(MAX_EXCUSE, MAX_EXCUSE);
     Check {
         id: "M-14",
         name: "modes are eigenpairs of the reduced model",

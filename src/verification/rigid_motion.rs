@@ -1,6 +1,6 @@
 //! Rigid-body motion passes through the model, the basis and the reduced stiffness: M-05, M-11, M-12.
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use super::force;
 use super::grounding::{Grounding, Restraint};
@@ -56,7 +56,7 @@ pub(super) fn residual(evidence: &Evidence<'_>, grounding: &[Grounding]) -> Chec
     let data = if precision > f64::EPSILON { NOISE_FACTOR * precision * cancellation } else { 0.0 };
     // Coordinates far from the origin are rounded to that distance, and with them the levers of a rotation.
     let arithmetic = f64::EPSILON * cancellation.max(remoteness(evidence));
-    let limits = Limits { engineering: 1e-14, arithmetic, data }.capped(MOST_EXCUSED, MOST_EXCUSED);
+    let limits = Limits { engineering: 1e-14, arithmetic, data }.capped(MAX_EXCUSE, MAX_EXCUSE);
     Check {
         id: "M-05",
         name: "rigid-body motion makes no force",

@@ -2,7 +2,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::check::{Check, Limits, MOST_EXCUSED};
+use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::Evidence;
 use super::evidence::data_noise;
 use super::residual::{Residuals, Rows, Worst};
@@ -41,7 +41,7 @@ pub(super) fn static_solves(evidence: &Evidence<'_>) -> Result<Check> {
         let force = dense::product(forces.as_ref(), moved.as_ref());
         explained.take_columns(&rows, columns, [panel.as_ref(), force.as_ref(), terms.as_ref()]);
     }
-    let limits = Limits { engineering: 1e-12, arithmetic: 0.0, data: explained.value }.capped(0.0, MOST_EXCUSED);
+    let limits = Limits { engineering: 1e-12, arithmetic: 0.0, data: explained.value }.capped(0.0, MAX_EXCUSE);
     Ok(Check {
         id: "M-10",
         name: "interface displacements are in equilibrium",

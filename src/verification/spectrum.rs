@@ -2,7 +2,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::check::{Limits, MOST_EXCUSED};
+use super::check::{Limits, MAX_EXCUSE};
 use super::evidence::{Evidence, coordinate_scales, data_noise};
 use super::limits::{GROUNDED, n_nearly_free};
 use crate::dense;
@@ -172,7 +172,7 @@ pub(in crate::verification) fn zero_level(evidence: &Evidence<'_>) -> Limits {
         arithmetic: evidence.reduction.n_reduced() as f64 * f64::EPSILON * cancellation,
         data: data_noise(evidence.partition) * cancellation,
     }
-    .capped(1e-4, MOST_EXCUSED)
+    .capped(1e-4, MAX_EXCUSE)
 }
 
 /// Eigenvalues of K̂ in the scales of its coordinates, ascending, with its rigid-body modes lifted to order one.

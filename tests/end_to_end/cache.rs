@@ -6,8 +6,9 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 use supel::cli::ExitCode;
+use supel_models::Model;
 
-use crate::place::{Ended, Place, supel};
+use crate::place::{Ended, Place, steel_brick, supel};
 
 const RIGID: &str = "--rigid-interface root=1,6,11,16,21,26,31,36,41 --rigid-interface tip=5,10,15,20,25,30,35,40,45";
 const DIRECT: &str = "--interface root=1,11,31,41 --interface tip=5,15,35,45";
@@ -23,7 +24,7 @@ fn reduced(place: &Place, rest: &str) -> (Written, Value, Ended) {
     (written, place.report("x.report.json")["run"]["cache"].clone(), ended)
 }
 
-/// The same with the cache in a folder of the place.
+/// A reduction with a cache in a folder of the place.
 fn cached(place: &Place, rest: &str) -> (Written, Value, Ended) {
     reduced(place, &format!("{rest} --cache {}", place.text("cache")))
 }
@@ -88,30 +89,99 @@ fn other_jobs_take_what_is_theirs() {
     let first = format!("{RIGID} {PLAIN}");
     let (_, of_first, _) = cached(&place, &first);
     assert!(of_first["kept"]["modes"].as_u64() > Some(1), "its own modes and those of boundaries: {of_first}");
-    for (rest, taken) in [
-        (format!("{RIGID} --method craig-bampton --modes 7"), json!({ "factor": 1 })),
-        (format!("{RIGID} --method herting --modes 6"), json!({ "factor": 1 })),
-        (format!("{RIGID} --method guyan"), json!({ "factor": 1 })),
-        (format!("{RIGID} {PLAIN} --precision mixed"), json!({})),
-        (format!("{DIRECT} {PLAIN}"), json!({})),
-        (format!("{RIGID} {PLAIN} --fix foot=23"), json!({})),
+    for (rest, is_of_one_factor) in [
+        (format!("{RIGID} --method craig-bampton --modes 7"), true),
+        (format!("{RIGID} --method craig-bampton --up-to-hz 9000"), true),
+        (format!("{RIGID} --method craig-bampton --up-to-hz 8000"), true),
+        (format!("{RIGID} --method herting --modes 6"), true),
+        (format!("{RIGID} --method mixed-interface --held root --modes 6"), true),
+        (format!("{RIGID} --method mixed-interface --held tip --modes 6"), true),
+        (format!("{RIGID} --method guyan"), true),
+        (format!("{RIGID} {PLAIN} --precision mixed"), false),
+        (format!("{DIRECT} {PLAIN}"), false),
+        (format!("{RIGID} {PLAIN} --fix foot=23"), false),
     ] {
         let (plain, _, _) = reduced(&place, &rest);
         let (found, of_cache, _) = cached(&place, &rest);
         assert_same(&found, &plain, &rest);
-        let own = |kind: &str| of_cache["taken"][kind].as_u64();
-        assert_eq!(
-            (own("factor"), own("modes").is_some()),
-            (taken["factor"].as_u64(), own("modes").is_some()),
-            "{rest}"
-        );
-        if taken["factor"].is_null() {
-            assert_eq!(of_cache["taken"], json!({}), "{rest}");
+        match is_of_one_factor {
+            true => assert_eq!(of_cache["taken"]["factor"], 1, "{rest}"),
+            false => assert_eq!(of_cache["taken"], json!({}), "{rest}"),
         }
     }
 }
 
-/// A value of M leaves the factor at shift zero as it is, one of K changes everything, and so does what is said of their digits.
+/// Twice K and M are the same numbers once they are scaled, and their modes are others; numbers of fewer digits have other bars.
+#[test]
+fn what_is_known_of_equal_numbers_is_part_of_the_key() {
+    let model = steel_brick();
+    let twice =
+        |entries: &[(u32, u32, f64)]| entries.iter().map(|(row, col, value)| (*row, *col, 2.0 * value)).collect();
+    let (stiffness, mass) = (twice(&model.stiffness), twice(&model.mass));
+    let doubled = Place::with(&Model { stiffness, mass, ..model });
+    let place = Place::with_brick();
+    let job = |digits: &str| {
+        let text = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\"{digits} }}\n\
+             interface = [{{ name = \"root\", nodes = [1, 6, 11, 16], coupling = \"rigid\" }}]\n\
+             reduction = {{ method = \"craig-bampton\", modes = {{ count = 4 }} }}\n\
+             write = {{ superelement = \"x.supel\" }}\n"
+        );
+        place.write("job.toml", text.as_bytes());
+    };
+    let run = |more: &[&str]| {
+        let path = place.text("job.toml");
+        supel(&[&["reduce", &path], more].concat()).expect(ExitCode::Done);
+        (
+            (place.bytes("x.supel"), place.report_body("x.report.json")),
+            place.report("x.report.json")["run"]["cache"].clone(),
+        )
+    };
+    let cache = place.text("cache");
+    job("");
+    run(&["--cache", &cache]);
+    job(", stiffness_digits = 9");
+    let (plain, _) = run(&[]);
+    let (found, of_cache) = run(&["--cache", &cache]);
+    assert_same(&found, &plain, "nine digits");
+    assert_eq!((&of_cache["taken"]["factor"], &of_cache["taken"]["modes"]), (&json!(1), &Value::Null));
+    job("");
+    ["K.mtx", "M.mtx"].iter().for_each(|name| place.write(name, &doubled.bytes(name)));
+    let (plain, _) = run(&[]);
+    let (found, of_cache) = run(&["--cache", &cache]);
+    assert_same(&found, &plain, "twice the numbers");
+    assert_eq!((&of_cache["taken"]["factor"], &of_cache["taken"]["modes"]), (&json!(1), &Value::Null));
+}
+
+/// A job that looks for its number of modes searches several times; what it finds again is its own.
+#[test]
+fn a_job_that_looks_for_its_modes_takes_nothing_from_itself() {
+    let place = Place::with_brick();
+    let text = "model = { stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }\n\
+                interface = [{ name = \"root\", nodes = [1, 6, 11, 16], coupling = \"rigid\" }]\n\
+                reduction = { method = \"craig-bampton\", modes = { accept = true } }\n\
+                scene = { band_hz = [0, 3000], boundaries = [\"free\"], accept = { frequency = 0.01 } }\n\
+                write = { superelement = \"x.supel\" }\n";
+    place.write("job.toml", text.as_bytes());
+    let run = |more: &[&str]| {
+        let path = place.text("job.toml");
+        supel(&[&["reduce", &path], more].concat()).expect(ExitCode::Done);
+        (
+            (place.bytes("x.supel"), place.report_body("x.report.json")),
+            place.report("x.report.json")["run"]["cache"].clone(),
+        )
+    };
+    let cache = place.text("cache");
+    let (plain, _) = run(&[]);
+    let (cold, of_cold) = run(&["--cache", &cache]);
+    let (warm, of_warm) = run(&["--cache", &cache]);
+    assert_same(&cold, &plain, "empty");
+    assert_same(&warm, &plain, "warm");
+    assert_eq!(of_cold["taken"], json!({}));
+    assert!(of_warm["taken"]["modes"].as_u64() >= of_cold["kept"]["modes"].as_u64(), "{of_warm} {of_cold}");
+}
+
+/// A value of M leaves the factor at shift zero as it is, one of K changes everything.
 #[test]
 fn a_changed_number_is_noticed() {
     let words = format!("{RIGID} {PLAIN}");
