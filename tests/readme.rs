@@ -111,7 +111,7 @@ fn every_command_of_the_readme_runs() {
         }
         n_run += usize::from(mark.ends_with(" run") || mark.ends_with(" peers"));
     }
-    assert_eq!(n_run, 17, "blocks that are run");
+    assert_eq!(n_run, 18, "blocks that are run");
     let again = Job::read(&folder.path().join("again.json")).expect("the job kept in the file is a job");
     assert_eq!(again.write.superelement.file_name(), Some("small.supel".as_ref()));
     let named = [
