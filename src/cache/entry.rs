@@ -142,7 +142,7 @@ impl<'a> Reader<'a> {
         Some(values)
     }
 
-    /// Arrays of one number each are numbers.
+    /// The only number of an array; none where it has more or fewer.
     pub(crate) fn number<T: Number>(&mut self) -> Option<T> {
         match self.array()?[..] {
             [number] => Some(number),

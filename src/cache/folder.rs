@@ -106,21 +106,37 @@ impl Cache {
         tally
     }
 
+    /// The result that an earlier run has kept under a key, by `read`, or the one that `make` makes, which is kept by `write`.
+    ///
+    /// # Errors
+    /// What `make` refuses; a cache that cannot be used is none.
+    pub(crate) fn recall<T>(
+        &self,
+        (kind, key): (Kind, &Key),
+        read: impl FnOnce(&mut Reader<'_>) -> Option<T>,
+        make: impl FnOnce() -> Result<T>,
+        write: impl FnOnce(&T, &mut Writer<'_>) -> std::io::Result<()>,
+    ) -> Result<T> {
+        if let Some(found) = self.take(kind, key, read) {
+            return Ok(found);
+        }
+        let made = make()?;
+        self.keep(kind, key, |to| write(&made, to));
+        Ok(made)
+    }
+
     /// The result under a key, by `read`; none where there is none or it is damaged.
-    pub(crate) fn take<T>(&self, kind: Kind, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
+    fn take<T>(&self, kind: Kind, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
         let name = name_of(kind, key);
         let path = self.0.folder.join(&name);
-        let found = match found(&path, key, read) {
-            Found::Result(found) => found,
-            Found::Nothing => return None,
-            found @ (Found::Damaged | Found::Unreadable) => {
-                if matches!(found, Found::Damaged) {
-                    let _ = std::fs::remove_file(&path);
-                }
-                locked(&self.0.tally).damaged.insert(name);
-                return None;
-            }
-        };
+        let found = found(&path, key, read);
+        if matches!(found, Found::Damaged) {
+            let _ = std::fs::remove_file(&path);
+        }
+        if matches!(found, Found::Damaged | Found::Unreadable) {
+            locked(&self.0.tally).damaged.insert(name.clone());
+        }
+        let Found::Result(found) = found else { return None };
         // The times say what was used last.
         let _ = File::options().append(true).open(&path).and_then(|file| file.set_modified(SystemTime::now()));
         if !locked(&self.0.own).contains_key(&name) {
@@ -130,7 +146,7 @@ impl Cache {
     }
 
     /// Keeps a result under a key, by `write`. What cannot be kept is tallied, and no error.
-    pub(crate) fn keep(&self, kind: Kind, key: &Key, write: impl FnOnce(&mut Writer<'_>) -> std::io::Result<()>) {
+    fn keep(&self, kind: Kind, key: &Key, write: impl FnOnce(&mut Writer<'_>) -> std::io::Result<()>) {
         let name = name_of(kind, key);
         match self.written(&name, key, write) {
             Ok(()) => {

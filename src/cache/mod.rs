@@ -28,13 +28,13 @@ use crate::error::Result;
 
 /// A result that an entry holds whole.
 pub(crate) trait Recorded: Sized {
-    /// What it is.
+    /// The kind of its entries.
     const KIND: Kind;
 
     /// Writes it.
     ///
     /// # Errors
-    /// Those of the file.
+    /// The file cannot be written.
     fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()>;
 
     /// Reads it; none where the arrays are not those of such a result.
@@ -44,18 +44,14 @@ pub(crate) trait Recorded: Sized {
 /// What `make` makes, or what it made in an earlier run under the same key.
 ///
 /// # Errors
-/// Those of `make`; a cache that cannot be used is none.
+/// What `make` refuses; a cache that cannot be used is none.
 pub(crate) fn recalled<T: Recorded>(
     cache: Option<&Cache>,
     key: impl FnOnce() -> Key,
     make: impl FnOnce() -> Result<T>,
 ) -> Result<T> {
-    let Some(cache) = cache else { return make() };
-    let key = key();
-    if let Some(found) = cache.take(T::KIND, &key, T::read) {
-        return Ok(found);
+    match cache {
+        None => make(),
+        Some(cache) => cache.recall((T::KIND, &key()), T::read, make, T::write),
     }
-    let made = make()?;
-    cache.keep(T::KIND, &key, |to| made.write(to));
-    Ok(made)
 }

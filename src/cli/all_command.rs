@@ -12,10 +12,10 @@ use super::cache_choice::CacheChoice;
 use super::flags::{CommandLine, OutputFlags, RunFlags, Typed};
 use super::job_folder;
 use super::judging::Answer;
+use super::memory::typed_bytes;
 use super::reduce_command::ReduceCommand;
 use super::threads::Threads;
 use crate::error::{Error, Result};
-use crate::memory_forecast::bytes_of_gib;
 
 /// Reduce many jobs.
 #[derive(Debug)]
@@ -64,11 +64,7 @@ impl AllCommand {
         if let Some((twice, _)) = jobs.iter().find(|(name, _)| !names.insert(name.as_str())) {
             return Err(Error::ComponentTwice { name: twice.clone() });
         }
-        let memory_gib = run.memory_gib;
-        if let Some(value) = memory_gib.filter(|gib| !(*gib > 0.0 && gib.is_finite())) {
-            let key = "--memory-gib".to_owned();
-            return Err(Error::JobNumber { key, value, expected: "more than zero" });
-        }
+        let budget_bytes = run.memory_gib.map(|gib| typed_bytes("--memory-gib", gib)).transpose()?;
         // Each run chooses its cache by itself; a size that is none is said once.
         CacheChoice::of(run)?;
         Ok(Self {
@@ -76,7 +72,7 @@ impl AllCommand {
             joins,
             passed_over,
             threads: Threads::of(run.threads),
-            budget_bytes: memory_gib.map(bytes_of_gib),
+            budget_bytes,
             answer: Answer::from((output.json, output.quiet)),
         })
     }

@@ -4,8 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::flags::RunFlags;
+use super::memory::typed_bytes;
 use crate::cache::{Cache, Tally};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::memory_forecast::bytes_of_gib;
 use crate::number::counted;
 
@@ -38,13 +39,13 @@ impl CacheChoice {
     ) -> Result<Option<Self>> {
         let typed_folder = folder.map(|folder| ("--cache", folder.to_owned()));
         let named = || Some((FOLDER, environment(FOLDER).filter(|name| !name.is_empty())?.into()));
-        let typed = gib.map(|gib| bytes("--cache-gib", gib)).transpose()?;
+        let typed = gib.map(|gib| typed_bytes("--cache-gib", gib)).transpose()?;
         let Some((key, folder)) = typed_folder.or_else(named) else { return Ok(None) };
         let max_bytes = match (typed, environment(SIZE).filter(|size| !size.is_empty())) {
             (Some(typed), _) => typed,
             (None, Some(size)) => {
                 let size = size.to_string_lossy();
-                bytes(&format!("{SIZE}={size}"), size.trim().parse().unwrap_or(f64::NAN))?
+                typed_bytes(&format!("{SIZE}={size}"), size.trim().parse().unwrap_or(f64::NAN))?
             }
             (None, None) => bytes_of_gib(DEFAULT_GIB),
         };
@@ -61,7 +62,7 @@ impl CacheChoice {
     /// The cache.
     ///
     /// # Errors
-    /// Those of [`Cache::at`].
+    /// What [`Cache::at`] refuses.
     pub(super) fn open(&self) -> Result<Cache> {
         Cache::at(&self.folder, self.max_bytes)
     }
@@ -81,17 +82,10 @@ impl CacheChoice {
     }
 }
 
-/// Bytes of a size that is one; `key` says where it was typed.
-fn bytes(key: &str, gib: f64) -> Result<u64> {
-    match gib > 0.0 && gib.is_finite() {
-        true => Ok(bytes_of_gib(gib)),
-        false => Err(Error::JobNumber { key: key.to_owned(), value: gib, expected: "more than zero" }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Error;
 
     const HALF: f64 = 0.5;
 

@@ -1,10 +1,24 @@
-//! How much memory is free for a run.
+//! How much memory is free for a run, and sizes that are typed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::error::{Error, Result};
+use crate::memory_forecast::bytes_of_gib;
+
 /// The share of what is free that a run may plan with; the rest is for what a forecast does not count.
 const USABLE: f64 = 0.9;
+
+/// Bytes of a size in GiB; `key` says where it was typed.
+///
+/// # Errors
+/// [`Error::JobNumber`] where it is not more than zero, or has no end.
+pub(super) fn typed_bytes(key: &str, gib: f64) -> Result<u64> {
+    match gib > 0.0 && gib.is_finite() {
+        true => Ok(bytes_of_gib(gib)),
+        false => Err(Error::JobNumber { key: key.to_owned(), value: gib, expected: "more than zero" }),
+    }
+}
 
 /// Bytes a run may plan with: what the system says is available, or less where a control group or a limit of the process allows
 /// less.

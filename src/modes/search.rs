@@ -85,7 +85,7 @@ impl<'a> Search<'a> {
     /// The lowest modes by this search, or what an earlier run found by the same one.
     ///
     /// # Errors
-    /// Those of [`ModeSource::lowest`]; a solve that did not come down to rounding.
+    /// What [`ModeSource::lowest`] refuses; a solve that did not come down to rounding.
     pub fn lowest_or_earlier(&self, seed: u64) -> Result<Modes> {
         let factor = self.problem.component.factor;
         // What refinement took of a factor in single precision is part of the report, and nobody knows it without the solves. The other

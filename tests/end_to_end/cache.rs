@@ -20,8 +20,25 @@ type Written = (Vec<u8>, String);
 
 fn reduced(place: &Place, rest: &str) -> (Written, Value, Ended) {
     let ended = place.reduce(&place.model_flags(), rest).expect(ExitCode::Done);
+    let (written, of_cache) = left(place);
+    (written, of_cache, ended)
+}
+
+/// What the last reduction has left, and what it had of its cache.
+fn left(place: &Place) -> (Written, Value) {
     let written = (place.bytes("x.supel"), place.report_body("x.report.json"));
-    (written, place.report("x.report.json")["run"]["cache"].clone(), ended)
+    (written, place.report("x.report.json")["run"]["cache"].clone())
+}
+
+/// The job of the place, without a cache and with one.
+fn reduced_job(place: &Place) -> (Written, Value) {
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    left(place)
+}
+
+fn cached_job(place: &Place) -> (Written, Value) {
+    supel(&["reduce", &place.text("job.toml"), "--cache", &place.text("cache")]).expect(ExitCode::Done);
+    left(place)
 }
 
 /// A reduction with a cache in a folder of the place.
@@ -129,26 +146,17 @@ fn what_is_known_of_equal_numbers_is_part_of_the_key() {
         );
         place.write("job.toml", text.as_bytes());
     };
-    let run = |more: &[&str]| {
-        let path = place.text("job.toml");
-        supel(&[&["reduce", &path], more].concat()).expect(ExitCode::Done);
-        (
-            (place.bytes("x.supel"), place.report_body("x.report.json")),
-            place.report("x.report.json")["run"]["cache"].clone(),
-        )
-    };
-    let cache = place.text("cache");
     job("");
-    run(&["--cache", &cache]);
+    cached_job(&place);
     job(", stiffness_digits = 9");
-    let (plain, _) = run(&[]);
-    let (found, of_cache) = run(&["--cache", &cache]);
+    let (plain, _) = reduced_job(&place);
+    let (found, of_cache) = cached_job(&place);
     assert_same(&found, &plain, "nine digits");
     assert_eq!((&of_cache["taken"]["factor"], &of_cache["taken"]["modes"]), (&json!(1), &Value::Null));
     job("");
     ["K.mtx", "M.mtx"].iter().for_each(|name| place.write(name, &doubled.bytes(name)));
-    let (plain, _) = run(&[]);
-    let (found, of_cache) = run(&["--cache", &cache]);
+    let (plain, _) = reduced_job(&place);
+    let (found, of_cache) = cached_job(&place);
     assert_same(&found, &plain, "twice the numbers");
     assert_eq!((&of_cache["taken"]["factor"], &of_cache["taken"]["modes"]), (&json!(1), &Value::Null));
 }
@@ -163,18 +171,9 @@ fn a_job_that_looks_for_its_modes_takes_nothing_from_itself() {
                 scene = { band_hz = [0, 3000], boundaries = [\"free\"], accept = { frequency = 0.01 } }\n\
                 write = { superelement = \"x.supel\" }\n";
     place.write("job.toml", text.as_bytes());
-    let run = |more: &[&str]| {
-        let path = place.text("job.toml");
-        supel(&[&["reduce", &path], more].concat()).expect(ExitCode::Done);
-        (
-            (place.bytes("x.supel"), place.report_body("x.report.json")),
-            place.report("x.report.json")["run"]["cache"].clone(),
-        )
-    };
-    let cache = place.text("cache");
-    let (plain, _) = run(&[]);
-    let (cold, of_cold) = run(&["--cache", &cache]);
-    let (warm, of_warm) = run(&["--cache", &cache]);
+    let (plain, _) = reduced_job(&place);
+    let (cold, of_cold) = cached_job(&place);
+    let (warm, of_warm) = cached_job(&place);
     assert_same(&cold, &plain, "empty");
     assert_same(&warm, &plain, "warm");
     assert_eq!(of_cold["taken"], json!({}));
@@ -212,7 +211,7 @@ fn a_changed_number_is_noticed() {
     assert_eq!(of_cache["kept"], json!({}), "the first numbers again");
 }
 
-/// Every entry, one at a time and all at once: emptied, cut, with one bit flipped, exchanged with another one of its kind.
+/// All entries at once: emptied, cut, with one bit flipped, with a byte more; and sets of modes exchanged.
 #[test]
 fn damage_is_noticed_said_and_mended() {
     let words = format!("{RIGID} {PLAIN}");

@@ -253,8 +253,8 @@ fn loads_are_columns_of_the_superelement() {
     second(1).expect(ExitCode::Done);
     let vectors = |name: &str| place.superelement(name).tensors().load_vectors.clone().expect("load vectors");
     let (given, found) = (vectors("x.supel"), vectors("second.supel"));
-    // The same interface comes first in both. Ψᵀf is what the load of the larger model does to it, to the digits of K̂ that make Ψ; to twelve
-    // rows of double precision at least, 10⁻⁹.
+    // Both files begin with the same twelve interface dofs. In the second Ψᵀf comes through K̂ and has its digits; they are credited with 10⁻⁹
+    // at most.
     let digits = place.report("second.report.json")["body"]["model"]["stiffness"]["digits"].as_u64().expect("a number");
     let tolerance = 0.1f64.powi(digits as i32 - 1).min(1e-9);
     let largest = (0..12).map(|row| given[(row, 1)].abs()).fold(0.0, f64::max);

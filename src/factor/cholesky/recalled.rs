@@ -21,12 +21,8 @@ impl<'a> Cholesky<'a> {
         name: &dyn Fn(usize) -> String,
     ) -> Result<Self> {
         let read = |from: &mut Reader<'_>| Self::read(from, analysis, (pencil, sigma), storage);
-        if let Some(found) = cache.take(Kind::Factor, key, read) {
-            return Ok(found);
-        }
-        let made = Self::kept(analysis, (pencil, sigma), storage, name)?;
-        cache.keep(Kind::Factor, key, |to| made.write(to));
-        Ok(made)
+        let make = || Self::kept(analysis, (pencil, sigma), storage, name);
+        cache.recall((Kind::Factor, key), read, make, Self::write)
     }
 
     fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {

@@ -8,7 +8,7 @@ impl<T: Entry> Numbers<T> {
     /// Writes them.
     ///
     /// # Errors
-    /// Those of the file.
+    /// The file cannot be written.
     pub(in crate::factor) fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
         for task in &self.tasks {
             to.array(&task.values)?;

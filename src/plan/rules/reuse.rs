@@ -8,6 +8,6 @@ pub(in crate::plan) fn k23(_: &Scene<'_>, _: Option<&Facts>) -> Decision {
     Decision::kept("nothing that a scene decides: a run with `--cache` takes what is there, and its report counts it")
 }
 
-pub(in crate::plan) fn k24(_: &Scene<'_>, _: Option<&Facts>) -> Decision {
-    Decision::kept("nothing that a scene decides: a run with `--cache` takes what is there, and its report counts it")
+pub(in crate::plan) fn k24(scene: &Scene<'_>, facts: Option<&Facts>) -> Decision {
+    k23(scene, facts)
 }
