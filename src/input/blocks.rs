@@ -2,7 +2,7 @@
 
 use std::io::Read;
 use std::path::Path;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 
 use super::source::{Source, read_error};
 use crate::error::{Error, Result};
@@ -43,10 +43,11 @@ pub(super) fn for_each_batch(
     let source = Source::open(path)?;
     std::thread::scope(|scope| {
         let (sender, receiver) = sync_channel(N_WAITING);
+        let (used_sender, used) = channel();
         let producer = std::thread::Builder::new()
-            .spawn_scoped(scope, move || produce(path, source, block_bytes, &sender))
+            .spawn_scoped(scope, move || produce((path, source), block_bytes, &sender, &used))
             .map_err(|_| Error::OutOfMemory { what: "the thread that reads a matrix" })?;
-        let outcome = consume_all(receiver, &mut consume);
+        let outcome = consume_all(receiver, &used_sender, &mut consume);
         let ending = producer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         // What the consumer found comes earlier in the file than where the producer has got to.
         outcome?;
@@ -54,19 +55,36 @@ pub(super) fn for_each_batch(
     })
 }
 
-fn consume_all(receiver: Receiver<Vec<u8>>, consume: &mut impl FnMut(&[Vec<u8>]) -> Result<()>) -> Result<()> {
+fn consume_all(
+    receiver: Receiver<Vec<u8>>,
+    used: &Sender<Vec<u8>>,
+    consume: &mut impl FnMut(&[Vec<u8>]) -> Result<()>,
+) -> Result<()> {
     let max_batch = rayon::current_num_threads() + 1;
     while let Ok(block) = receiver.recv() {
         let mut batch = vec![block];
         batch.extend(receiver.try_iter().take(max_batch - 1));
         consume(&batch)?;
+        // A producer that has read everything takes none back.
+        batch.into_iter().for_each(|block| drop(used.send(block)));
     }
     Ok(())
 }
 
-/// Reads blocks and sends them, to the end of the file or until the receiver is gone.
-fn produce(path: &Path, mut source: Source, block_bytes: usize, sender: &SyncSender<Vec<u8>>) -> Result<Ending> {
-    let mut block = Vec::with_capacity(block_bytes + READ_BYTES);
+/// Reads blocks and sends them, to the end of the file or until the receiver is gone. Blocks that were used are filled again: the system
+/// takes longer to hand out fresh memory than it takes to fill it.
+fn produce(
+    (path, mut source): (&Path, Source),
+    block_bytes: usize,
+    sender: &SyncSender<Vec<u8>>,
+    used: &Receiver<Vec<u8>>,
+) -> Result<Ending> {
+    let empty = || {
+        let mut block = used.try_recv().unwrap_or_else(|_| Vec::with_capacity(block_bytes + READ_BYTES));
+        block.clear();
+        block
+    };
+    let mut block = empty();
     let mut is_first = true;
     let mut n_lines = 0;
     loop {
@@ -90,7 +108,7 @@ fn produce(path: &Path, mut source: Source, block_bytes: usize, sender: &SyncSen
         if end == 0 {
             continue;
         }
-        let mut next = Vec::with_capacity(block_bytes + READ_BYTES);
+        let mut next = empty();
         next.extend_from_slice(&block[end..]);
         block.truncate(end);
         n_lines += count_lines(&block);

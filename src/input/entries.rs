@@ -75,6 +75,25 @@ impl Fault {
     }
 }
 
+/// Eight characters 0.
+const ZEROS: u64 = u64::from_ne_bytes([b'0'; 8]);
+
+/// How many of eight characters, the lowest byte first, are digits before the first one that is none.
+fn leading_digits(eight: u64) -> u32 {
+    // Of a digit the upper half is that of a 0, and stays so where six is added: 9 + 6 is fifteen.
+    const HALVES: u64 = u64::from_ne_bytes([0xf0; 8]);
+    const SIXES: u64 = u64::from_ne_bytes([6; 8]);
+    let differs = (eight & HALVES) ^ ZEROS | (eight.wrapping_add(SIXES) & HALVES) ^ ZEROS;
+    differs.trailing_zeros() / 8
+}
+
+/// The number of eight decimal digits, one a byte, the first one lowest: pairs become two digits, pairs of pairs four.
+fn value_of_eight_digits(digits: u64) -> u64 {
+    let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8) & 0x00ff_00ff_00ff_00ff;
+    let fours = pairs.wrapping_mul(100).wrapping_add(pairs >> 16) & 0x0000_ffff_0000_ffff;
+    fours.wrapping_mul(10_000).wrapping_add(fours >> 32) & 0xffff_ffff
+}
+
 /// A place in a text.
 struct Cursor<'a> {
     text: &'a [u8],
@@ -130,11 +149,10 @@ impl<'a> Cursor<'a> {
     /// An index from 1 to n, returned from 0.
     fn index(&mut self, field: &'static str, n: u32) -> Result<u32, What> {
         let start = self.at;
-        let mut found = 0_u64;
-        while let Some(digit @ b'0'..=b'9') = self.peek() {
-            found = found.saturating_mul(10).saturating_add(u64::from(digit - b'0'));
-            self.at += 1;
-        }
+        let found = match self.short_whole() {
+            Some(found) => found,
+            None => self.whole(),
+        };
         if self.at == start || !self.at_field_end() {
             self.at = start;
             return Err(What::Field { field, found: self.found(), expected: "a whole number from 1" });
@@ -143,6 +161,32 @@ impl<'a> Cursor<'a> {
             Ok(index @ 1..) if index <= n => Ok(index - 1),
             _ => Err(What::Index { field, found }),
         }
+    }
+
+    /// The digits that start here, as far as they go.
+    fn whole(&mut self) -> u64 {
+        let mut found = 0_u64;
+        while let Some(digit @ b'0'..=b'9') = self.peek() {
+            found = found.saturating_mul(10).saturating_add(u64::from(digit - b'0'));
+            self.at += 1;
+        }
+        found
+    }
+
+    /// The same of up to seven digits, all at once; nothing, and no move, where there may be more.
+    #[inline]
+    fn short_whole(&mut self) -> Option<u64> {
+        let eight = self.text.get(self.at..self.at + 8)?;
+        // The first byte comes lowest.
+        let eight = u64::from_le_bytes(eight.try_into().ok()?);
+        let n_digits = leading_digits(eight);
+        if n_digits == 8 {
+            return None;
+        }
+        self.at += n_digits as usize;
+        // Zeros in front of the digits, which move to the end. None of them leaves nothing.
+        let digits = (eight ^ ZEROS).checked_shl(64 - 8 * n_digits).unwrap_or(0);
+        Some(value_of_eight_digits(digits))
     }
 
     fn value(&mut self) -> Result<f64, What> {
@@ -180,5 +224,56 @@ impl<'a> Cursor<'a> {
     fn found(&self) -> String {
         let field = self.field();
         if field.is_empty() { "end of line".into() } else { excerpt(field) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every number of digits, before every character, at the end of a text and far from it.
+    #[test]
+    fn digits_are_read_at_once_as_one_by_one() {
+        let n = u32::MAX;
+        for digits in [
+            "0",
+            "1",
+            "9",
+            "10",
+            "407",
+            "9999",
+            "12345",
+            "000001",
+            "9999999",
+            "10000000",
+            "4294967295",
+            "99999999999999999999999",
+        ] {
+            for after in (0..=u8::MAX).filter(|byte| !byte.is_ascii_digit()) {
+                for more in ["", " 1 2.5\n3 4 5\n"] {
+                    let mut text = digits.as_bytes().to_vec();
+                    text.push(after);
+                    text.extend(more.as_bytes());
+                    let mut cursor = Cursor { text: &text, at: 0, values: Values::Real };
+                    let found = cursor.index("row", n);
+                    let value: f64 = digits.parse().expect("a number");
+                    match found {
+                        Ok(index) => {
+                            assert!(matches!(after, b' ' | b'\t' | b'\r' | b'\n'), "{digits} {after}");
+                            assert_eq!((f64::from(index) + 1.0, cursor.at), (value, digits.len()));
+                        }
+                        Err(What::Index { found, .. }) => {
+                            assert!(value == 0.0 || value > f64::from(n), "{digits}");
+                            assert_eq!(found, digits.parse().unwrap_or(u64::MAX));
+                        }
+                        Err(what) => {
+                            assert!(matches!(what, What::Field { .. }), "{what:?}");
+                            assert!(!matches!(after, b' ' | b'\t' | b'\r' | b'\n'), "{digits} {after}");
+                            assert_eq!(cursor.at, 0);
+                        }
+                    }
+                }
+            }
+        }
     }
 }
