@@ -4,12 +4,12 @@
 //! G    Ψᵀ diag(K) Ψ   singular where a column is made up of others
 //! H    K̂ + M̂         singular where a motion has neither stiffness nor mass
 //! ```
-//! Both, and in H both terms, are brought to unit diagonal first. A mass that is singular by itself is none the worse, and neither is
+//! Both, and in H both terms, are brought to unit diagonal first, where that is more than rounding. A mass that is singular by itself is none the worse, and neither is
 //! rigid-body motion.
 
 use faer::{Mat, MatRef};
 
-use super::foreign::Foreign;
+use super::foreign::{Foreign, Pair};
 use crate::certification::listing::first_of;
 use crate::dense;
 use crate::error::Result;
@@ -30,7 +30,7 @@ const LISTED: usize = 4;
 /// A dense eigenproblem that does not converge.
 pub(super) fn check(partition: &Partition, foreign: &Foreign) -> Result<Check> {
     let of_basis = Condition::of(of_columns(partition, foreign).as_ref())?;
-    let of_matrices = Condition::of(sum_at_unit_diagonal([&foreign.stiffness.given, &foreign.mass.given]).as_ref())?;
+    let of_matrices = Condition::of(sum_at_unit_diagonal([&foreign.stiffness, &foreign.mass]).as_ref())?;
     let Condition { value, weakest } = if of_matrices.value > of_basis.value { of_matrices } else { of_basis };
     let [limit, fail_above] = LEFT.map(|left| left / f64::EPSILON);
     Ok(Check {
@@ -52,8 +52,8 @@ fn of_columns(partition: &Partition, foreign: &Foreign) -> Mat<f64> {
 }
 
 /// H of K̂ and M̂.
-fn sum_at_unit_diagonal(matrices: [&Mat<f64>; 2]) -> Mat<f64> {
-    let [k, m] = matrices.map(|matrix| dense::unit_diagonal(matrix.as_ref()).0);
+fn sum_at_unit_diagonal(matrices: [&Pair; 2]) -> Mat<f64> {
+    let [k, m] = matrices.map(Pair::at_unit_diagonal);
     Mat::from_fn(k.nrows(), k.nrows(), |i, j| k[(i, j)] + m[(i, j)])
 }
 
@@ -91,13 +91,19 @@ mod tests {
     #[test]
     fn a_mass_may_be_singular_by_itself_and_not_together_with_the_stiffness() {
         let value = |k: [[f64; 2]; 2], m: [[f64; 2]; 2]| {
-            let [k, m] = [k, m].map(|a| Mat::from_fn(2, 2, |i, j| a[i][j]));
+            let [k, m] = [k, m].map(|a| {
+                let given = Mat::from_fn(2, 2, |i, j| a[i][j]);
+                let (projected, terms) = (given.clone(), vec![2e9; 2]);
+                Pair { given, projected, terms, asymmetry: 0.0, rounding: [0.0; 2] }
+            });
             Condition::of(sum_at_unit_diagonal([&k, &m]).as_ref()).expect("converges").value
         };
         // A coordinate without mass, of any stiffness.
         assert!(value([[1e9, 0.0], [0.0, 1.0]], [[2.0, 0.0], [0.0, 0.0]]) < 10.0);
         // Rigid-body motion has no stiffness, and mass.
         assert!(value([[1e9, -1e9], [-1e9, 1e9]], [[2.0, 0.0], [0.0, 3.0]]) < 10.0);
+        // Of two rigid-body motions K̂ has nothing but rounding, which no diagonal of rounding scales up.
+        assert!(value([[1e-9, 1e-7], [1e-7, -1e-9]], [[2.0, 0.0], [0.0, 3.0]]) < 10.0);
         // Neither.
         assert!(value([[1e9, -1e9], [-1e9, 1e9]], [[2.0, -2.0], [-2.0, 2.0]]) > LEFT[1] / f64::EPSILON);
     }

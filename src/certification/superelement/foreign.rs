@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
 use super::files::{ForeignSuperelement, ReducedMatrix};
 use super::interface::Interface;
@@ -16,6 +16,8 @@ use crate::verification::check::Limits;
 
 /// Difference of an entry relative to the diagonal that practice does not see.
 const SAME: f64 = 1e-6;
+/// Share of its terms that a diagonal entry keeps at least where it is more than what their cancelling leaves.
+const CANCELLED: f64 = 1e-10;
 /// The most that rounding may excuse of one.
 const MOST_EXCUSED: f64 = 1e-2;
 
@@ -159,12 +161,24 @@ impl Places<'_> {
 }
 
 impl Pair {
+    /// The root of a diagonal entry of one of the two: what entries of its row are relative to. That of rigid-body motion in K̂ is rounding,
+    /// and so are the entries next to it.
+    fn size_of(&self, matrix: MatRef<'_, f64>, i: usize) -> f64 {
+        matrix[(i, i)].max(CANCELLED * self.terms[i]).sqrt()
+    }
+
+    /// What was read, at unit diagonal where that is more than rounding.
+    pub(super) fn at_unit_diagonal(&self) -> Mat<f64> {
+        let given = self.given.as_ref();
+        let sizes: Vec<f64> = (0..given.nrows()).map(|i| self.size_of(given, i)).collect();
+        let scaled = |i: usize, j: usize| given[(i, j)] / (sizes[i] * sizes[j]);
+        Mat::from_fn(sizes.len(), sizes.len(), |i, j| if sizes[i] * sizes[j] > 0.0 { scaled(i, j) } else { 0.0 })
+    }
+
     /// The entry that is further than any other from what it has to be, relative to the diagonal and compared with its limits.
     pub(super) fn worst(&self, of_basis: f64) -> Difference {
-        /// Share of its terms that a diagonal entry keeps at least where it is more than what their cancelling leaves.
-        const CANCELLED: f64 = 1e-10;
         let (given, projected) = (self.given.as_ref(), self.projected.as_ref());
-        let size = |i: usize| projected[(i, i)].max(CANCELLED * self.terms[i]).sqrt();
+        let size = |i: usize| self.size_of(projected, i);
         let mut worst = Difference { value: 0.0, limits: Limits { engineering: SAME, ..Limits::default() }, at: None };
         for j in 0..given.ncols() {
             for i in 0..=j {
