@@ -3182,11 +3182,13 @@ pub enum Error {
         /// What was computed.
         what: String,
     },
-    /// Unit accelerations do not deform the interior, so that rigid-body motion cannot be taken out of its static modes.
+    /// Unit accelerations do not deform the interior, or not each in a way of its own, so that rigid-body motion cannot be taken out of its
+    /// static modes.
     #[entry("E-ATTACHMENT", ModelPhysics, "use herting, or craig-bampton with inertia relief")]
     #[error(
-        "the interior hardly deforms when the body is accelerated – expected a strain in it for every rigid-body motion, \
-        of which Rubin's attachment modes are made – use herting or craig-bampton"
+        "accelerations of the body do not strain its interior, or not each in a way of its own – expected a strain for every rigid-body \
+        motion, of which Rubin's attachment modes are made; a mass far larger than the rest leaves rotations about it none – use \
+        herting or craig-bampton"
     )]
     NoAttachmentModes,
     /// The interface of Rubin's method leaves rigid-body motions free, and the answers to unit loads on it are nearly dependent.

@@ -76,7 +76,7 @@
 //! here, because it looks at the raw matrices with the tools of the stages after it.
 //!
 //! ```text
-//! number · dofs · error · unfinished · heap · tally · foreign_exit · regular_file · linked · random · dense · sparse
+//! number · dofs · error · unfinished · heap · tally · foreign_exit · regular_file · linked · random · twofold · dense · sparse
 //! cache · factor · eigen
 //! job · plan · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping
 //! memory_forecast · size_forecast · cost_forecast · verification · audit · certification · assembly
@@ -142,6 +142,7 @@ pub mod rubin;
 pub mod size_forecast;
 pub mod sparse;
 pub mod tally;
+mod twofold;
 mod unfinished;
 pub mod verification;
 

@@ -21,13 +21,29 @@ const ALIKE: f64 = 1e-6;
 
 /// The modes of each repeated eigenvalue: runs of eigenvalues that the rounding of their quotients cannot tell apart.
 pub(super) fn repeated(lambda: &[f64], errors: &[ModeError]) -> Vec<Range<usize>> {
+    runs(lambda, errors, REPEATED_WITHIN)
+}
+
+/// How many modes may have been taken for copies of one eigenvalue with this one, by whoever has these quotients but for their rounding; one
+/// where there are no others.
+pub(crate) fn n_taken_for_one(lambda: &[f64], errors: &[ModeError], mode: usize) -> usize {
+    let runs = runs(lambda, errors, 2.0 * REPEATED_WITHIN);
+    runs.iter().find(|run| run.contains(&mode)).map_or(1, |run| run.len())
+}
+
+/// How far the mean of so many quotients may be from each, relative to it: half of what neighbours of a run may differ by, for each of them.
+/// It is not what they differ by here, which another eigensolver would find otherwise.
+pub(crate) fn mean_is_away(cancellation: f64, n_quotients: usize) -> f64 {
+    0.5 * REPEATED_WITHIN * (n_quotients - 1) as f64 * f64::EPSILON * cancellation
+}
+
+/// Runs of eigenvalues no further from each other than so many roundings.
+fn runs(lambda: &[f64], errors: &[ModeError], within: f64) -> Vec<Range<usize>> {
     let is_tied = |j: usize| {
         let rounding = |j: usize| f64::EPSILON * errors[j].cancellation * lambda[j].abs();
         // Zero modes are left as they are: all of them are rounding of one size, whatever body they belong to.
         let is_known = |j: usize| f64::EPSILON * errors[j].cancellation < 0.1;
-        is_known(j)
-            && is_known(j - 1)
-            && (lambda[j] - lambda[j - 1]).abs() <= REPEATED_WITHIN * rounding(j).max(rounding(j - 1))
+        is_known(j) && is_known(j - 1) && (lambda[j] - lambda[j - 1]).abs() <= within * rounding(j).max(rounding(j - 1))
     };
     let mut runs = Vec::new();
     let mut start = 0;
@@ -51,7 +67,7 @@ pub(super) fn canonicalise(mass: Leading<'_>, runs: &[Range<usize>], shapes: &mu
 }
 
 /// Gives every mode of a repeated eigenvalue the mean of the quotients, and the largest bar of them, which holds for the mean
-/// whatever the basis.
+/// whatever the basis. What a quotient may be away from the mean adds to it.
 ///
 /// Bars are relative to a quotient: one that stayed relative to its own quotient would be wrong for the mean.
 pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64], errors: &mut [ModeError]) {
@@ -62,7 +78,8 @@ pub(super) fn average(runs: &[Range<usize>], lambda: &mut [f64], errors: &mut [M
             let absolute = errors.iter().zip(of_run.iter()).map(|(error, lambda)| bar(error) * lambda.abs());
             absolute.fold(0.0, f64::max) / mean.abs()
         };
-        let (cancellation, data_bar) = (largest(&|error| error.cancellation), largest(&|error| error.data_bar));
+        let cancellation = largest(&|error| error.cancellation);
+        let data_bar = largest(&|error| error.data_bar) + mean_is_away(cancellation, of_run.len());
         let rounding_floor = errors.iter().map(|error| error.rounding_floor).fold(0.0, f64::max);
         let zero_level = errors.iter().map(|error| error.zero_level).fold(0.0, f64::max);
         for error in errors {
@@ -142,8 +159,25 @@ mod tests {
         assert!(repeated(&lambda, &errors).is_empty());
         average(std::slice::from_ref(&(0..3)), &mut lambda, &mut errors);
         for (lambda, error) in lambda.iter().zip(&errors) {
-            // One product and one quotient.
-            assert!((error.data_bar * lambda / noise - 1.0).abs() <= 4.0 * f64::EPSILON, "{lambda:e}, {error:?}");
+            // The bar of one, and half of four roundings for each of two neighbours.
+            assert!((error.data_bar * lambda / noise / 5.0 - 1.0).abs() <= 8.0 * f64::EPSILON, "{lambda:e}, {error:?}");
+        }
+    }
+
+    /// Two eigenvalues that bars cannot tell apart lie within the bar of their mean.
+    #[test]
+    fn the_bar_of_a_mean_reaches_every_quotient() {
+        let bar = 1e-12;
+        let error = ModeError { cancellation: bar / f64::EPSILON, data_bar: bar, ..ModeError::default() };
+        let mut lambda = [1.0, 1.0 + 3.5 * bar];
+        let (each, mut errors) = (lambda, [error; 2]);
+        let runs = repeated(&lambda, &errors);
+        assert_eq!(runs, [0..2]);
+        average(&runs, &mut lambda, &mut errors);
+        for (mean, error) in lambda.iter().zip(&errors) {
+            // Each quotient may itself be off by its bar.
+            let reached = each.iter().all(|own| (own / mean - 1.0).abs() + bar <= error.data_bar * (1.0 + 1e-3));
+            assert!(reached, "{lambda:?}, {error:?}");
         }
     }
 }

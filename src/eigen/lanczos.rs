@@ -20,15 +20,17 @@ use super::block_width::block_width;
 use super::columns::Columns;
 use super::orthogonalisation::{combine_in_place, mass_qr};
 use super::problem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted, is_above, mass_norm};
-use super::ritz::{ROUNDING, Ritz};
+use super::ritz::{Goal, ROUNDING, Ritz};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::random::SplitMix64;
-use crate::sparse::product;
+use crate::sparse::{absolute_energy, product};
 use crate::tally;
 
 /// Restarts after which an iteration that has not converged never will.
 const MAX_RESTARTS: usize = 60;
+/// Restarts after which it is looked at whether residuals are rounding: more than any iteration takes whose residuals still fall.
+const MANY_RESTARTS: usize = 20;
 /// Modes expected in a band before they are counted.
 const EXPECTED_IN_BAND: usize = 16;
 /// The share of the basis by which it grows before convergence is looked at again; less than a block for sixty columns.
@@ -45,13 +47,6 @@ const LEFT: f64 = 1e-8;
 const MIN_ORTHOGONAL_SHARE: f64 = 0.5;
 /// Share of a random direction outside a basis that is not rounding of taking the basis out: thousands of roundings.
 const OUTSIDE: f64 = 1e-12;
-
-/// What an iteration looks for.
-#[derive(Clone, Copy)]
-enum Goal {
-    Lowest(Wanted),
-    Between(Interval),
-}
 
 /// Finds the wanted eigenpairs.
 ///
@@ -88,6 +83,11 @@ fn run(problem: Problem<'_>, goal: Goal, seed: u64) -> Result<Eigenpairs> {
             if basis.is_exhausted() {
                 return basis.everything(goal);
             }
+        }
+        if basis.work.restarts == MANY_RESTARTS
+            && let Some(pairs) = basis.down_to_rounding(goal)?
+        {
+            return Ok(pairs);
         }
         if basis.work.restarts == MAX_RESTARTS {
             return basis.stalled(goal);
@@ -249,7 +249,7 @@ impl<'a> KrylovBasis<'a> {
         let s = dense::columns(vectors.as_ref(), &order);
         let coupled = dense::product(self.coupling.as_ref(), s.as_ref());
         let residuals = (0..m).map(|j| dense::norm(dense::column(coupled.as_ref(), j))).collect();
-        Ok(Ritz { theta: order.iter().map(|j| ascending[*j]).collect(), s, residuals })
+        Ok(Ritz::new(order.iter().map(|j| ascending[*j]).collect(), s, residuals))
     }
 
     /// The Ritz pairs and which of them are the answer, once they have converged, and the one beyond too.
@@ -269,11 +269,18 @@ impl<'a> KrylovBasis<'a> {
             tally::converged((0..ritz.theta.len()).take_while(|j| ritz.is_converged(*j)).count());
         }
         let sigma = self.problem.operator.shift();
-        let taken = match goal {
-            Goal::Lowest(wanted) => ritz.count_wanted(wanted, sigma).map(|count| (0..count).collect()),
-            Goal::Between(interval) => ritz.inside(interval, sigma),
-        };
-        Ok(taken.map(|taken| (ritz, taken)))
+        Ok(ritz.answer(goal, sigma).map(|taken| (ritz, taken)))
+    }
+
+    /// The answer of an iteration that is no nearer to it after many restarts, where its residuals are what rounding of products with
+    /// M leaves: a large mass far from the point that its motion is described at makes terms that nearly cancel.
+    fn down_to_rounding(&self, goal: Goal) -> Result<Option<Eigenpairs>> {
+        let (ritz, sigma) = (self.ritz()?, self.problem.operator.shift());
+        let n_looked_at = (ritz.n_asked(goal, sigma) + 1).min(ritz.theta.len());
+        let vectors = dense::product(self.v(), ritz.s.as_ref().subcols(0, n_looked_at));
+        let terms = absolute_energy(self.problem.mass, vectors.as_ref());
+        let ritz = ritz.beneath_terms(dense::worst(terms));
+        Ok(ritz.answer(goal, sigma).map(|taken| self.extract(&ritz, &taken)))
     }
 
     /// Whether a wanted cluster has as many members as start vectors were used: each finds one copy of a multiple
@@ -299,13 +306,7 @@ impl<'a> KrylovBasis<'a> {
         let ritz = self.ritz()?;
         let (n, block) = (self.vectors.nrows(), self.n_next());
         let sigma = self.problem.operator.shift();
-        let n_wanted = match goal {
-            Goal::Lowest(Wanted::Count(count)) => ritz.to_end_of_cluster(count, sigma),
-            Goal::Lowest(Wanted::UpTo(limit)) => {
-                (0..ritz.n_finite()).take_while(|j| !is_above(ritz.lambda(*j, sigma), limit)).count()
-            }
-            Goal::Between(interval) => ritz.n_within_reach(interval, sigma),
-        };
+        let n_wanted = ritz.n_asked(goal, sigma);
         self.look_at = 0;
         let capacity = capacity_for(n_wanted, block, n);
         if capacity > self.capacity {

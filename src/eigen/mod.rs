@@ -30,6 +30,7 @@ mod spectral;
 pub(crate) mod zero;
 
 pub use cluster::REPEATED_WITHIN;
+pub(crate) use cluster::{mean_is_away, n_taken_for_one};
 pub(crate) use dense_pencil::{eigenvalue_beyond, eigenvalues, lowest_eigenpairs, lowest_ratio_of};
 pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};

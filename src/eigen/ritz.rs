@@ -13,17 +13,37 @@ const NEXT_TOLERANCE: f64 = 1e-4;
 const SHARE_OF_DISTANCE: f64 = 0.1;
 /// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
 pub(super) const ROUNDING: f64 = 16.0;
-/// Residuals in the same units that need not fall further; the correction in [`Basis::extract`] takes up the rest.
+/// Residuals in the same units that need not fall further.
 pub(super) const RESIDUAL_FLOOR: f64 = 16.0;
+
+/// What an iteration looks for.
+#[derive(Clone, Copy)]
+pub(super) enum Goal {
+    Lowest(Wanted),
+    Between(Interval),
+}
 
 /// Ritz pairs in descending |θ|: those nearest the shift first, which is ascending λ for a shift below the spectrum.
 pub(super) struct Ritz {
     pub(super) theta: Vec<f64>,
     pub(super) s: Mat<f64>,
     pub(super) residuals: Vec<f64>,
+    /// Residuals that need not fall further; the correction in [`Basis::extract`] takes up the rest.
+    floor: f64,
 }
 
 impl Ritz {
+    /// Pairs of an operator whose largest θ is rounded to ε of itself.
+    pub(super) fn new(theta: Vec<f64>, s: Mat<f64>, residuals: Vec<f64>) -> Self {
+        let floor = RESIDUAL_FLOOR * f64::EPSILON * theta.first().copied().unwrap_or(0.0).abs();
+        Self { theta, s, residuals, floor }
+    }
+
+    /// These pairs where products with M are rounded to ε of terms that are so many times as large as what is left of them.
+    pub(super) fn beneath_terms(self, cancellation: f64) -> Self {
+        Self { floor: self.floor * cancellation.max(1.0), ..self }
+    }
+
     pub(super) fn lambda(&self, j: usize, sigma: f64) -> f64 {
         sigma + 1.0 / self.theta[j]
     }
@@ -35,7 +55,7 @@ impl Ritz {
     }
 
     pub(super) fn is_converged(&self, j: usize) -> bool {
-        self.residuals[j] <= (TOLERANCE * self.theta[j].abs()).max(RESIDUAL_FLOOR * f64::EPSILON * self.theta[0].abs())
+        self.residuals[j] <= (TOLERANCE * self.theta[j].abs()).max(self.floor)
     }
 
     pub(super) fn same_cluster(&self, a: usize, b: usize, sigma: f64) -> bool {
@@ -43,7 +63,7 @@ impl Ritz {
     }
 
     /// A number of leading pairs, and the rest of the cluster that it would cut, as far as that shows.
-    pub(super) fn to_end_of_cluster(&self, mut count: usize, sigma: f64) -> usize {
+    fn to_end_of_cluster(&self, mut count: usize, sigma: f64) -> usize {
         let n_finite = self.n_finite();
         while count > 0 && count < n_finite && self.same_cluster(count - 1, count, sigma) {
             count += 1;
@@ -51,8 +71,27 @@ impl Ritz {
         count
     }
 
+    /// Numbers of the pairs that answer a goal, or none while it is not answered.
+    pub(super) fn answer(&self, goal: Goal, sigma: f64) -> Option<Vec<usize>> {
+        match goal {
+            Goal::Lowest(wanted) => self.count_wanted(wanted, sigma).map(|count| (0..count).collect()),
+            Goal::Between(interval) => self.inside(interval, sigma),
+        }
+    }
+
+    /// How many leading pairs a goal is about, converged or not.
+    pub(super) fn n_asked(&self, goal: Goal, sigma: f64) -> usize {
+        match goal {
+            Goal::Lowest(Wanted::Count(count)) => self.to_end_of_cluster(count, sigma),
+            Goal::Lowest(Wanted::UpTo(limit)) => {
+                (0..self.n_finite()).take_while(|j| !is_above(self.lambda(*j, sigma), limit)).count()
+            }
+            Goal::Between(interval) => self.n_within_reach(interval, sigma),
+        }
+    }
+
     /// How many pairs answer the request, or none while the request is not answered.
-    pub(super) fn count_wanted(&self, wanted: Wanted, sigma: f64) -> Option<usize> {
+    fn count_wanted(&self, wanted: Wanted, sigma: f64) -> Option<usize> {
         let n_finite = self.n_finite();
         let count = self.to_end_of_cluster(
             match wanted {
@@ -77,7 +116,7 @@ impl Ritz {
 
     /// The pairs inside an interval, once they have converged and either all of them are there or a pair further from the
     /// shift than both ends has converged too: the space then holds nothing more of the interval.
-    pub(super) fn inside(&self, interval: Interval, sigma: f64) -> Option<Vec<usize>> {
+    fn inside(&self, interval: Interval, sigma: f64) -> Option<Vec<usize>> {
         let n_finite = self.n_finite();
         let reach = (interval.to - sigma).max(sigma - interval.from);
         let inside: Vec<usize> = (0..n_finite).filter(|j| interval.holds(self.lambda(*j, sigma))).collect();
@@ -89,7 +128,7 @@ impl Ritz {
     }
 
     /// Leading pairs no further from the shift than the ends of an interval.
-    pub(super) fn n_within_reach(&self, interval: Interval, sigma: f64) -> usize {
+    fn n_within_reach(&self, interval: Interval, sigma: f64) -> usize {
         let reach = (interval.to - sigma).max(sigma - interval.from);
         (0..self.n_finite()).take_while(|j| 1.0 / self.theta[*j].abs() <= reach).count()
     }

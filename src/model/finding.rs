@@ -98,6 +98,17 @@ pub enum Finding {
         /// Its distance from the mean of the patch over the size of the part.
         ratio: f64,
     },
+    /// A patch whose mass is far from its node.
+    MassFar {
+        /// The interface.
+        interface: String,
+        /// The centre of the mass.
+        centre: [f64; 3],
+        /// Its distance from the node.
+        distance: f64,
+        /// How many times larger the terms of the smallest inertia are than what is left of them.
+        loss: f64,
+    },
     /// Constraints that were eliminated.
     Constrained {
         /// How many have terms.
@@ -160,6 +171,7 @@ impl Finding {
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
             Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
+            Self::MassFar { .. } => Some("W-MASS-FAR"),
             Self::ConstraintGround { .. } => Some("W-CONSTRAINT-GROUND"),
             Self::HangingInterface { .. } => Some("W-HANGING"),
         }
@@ -214,6 +226,9 @@ impl std::fmt::Display for Finding {
                 )
             }
             Self::OriginFar { interface, origin, ratio } => f.write_str(&origin_far(interface, *origin, *ratio)),
+            Self::MassFar { interface, centre, distance, loss } => {
+                f.write_str(&mass_far(interface, *centre, [*distance, *loss]))
+            }
             Self::Constrained { n_rows, n_dependent, largest, redundant, empty } => {
                 f.write_str(&constrained([*n_rows, *n_dependent], *largest, redundant, *empty))
             }
@@ -301,5 +316,15 @@ fn origin_far(interface: &str, origin: [f64; 3], ratio: f64) -> String {
          lost on so long a lever",
         origin.map(|x| quantity(x, 6)).join(", "),
         quantity(ratio, 2)
+    )
+}
+
+fn mass_far(interface: &str, centre: [f64; 3], [distance, loss]: [f64; 2]) -> String {
+    format!(
+        "the mass at interface {interface:?} is centred {} away from its node: {} digits of its inertia are lost on that lever; set \
+         origin = [{}] of the interface to keep them",
+        quantity(distance, 4),
+        loss.log10().round(),
+        centre.map(|x| quantity(x, 8)).join(", ")
     )
 }

@@ -1,6 +1,9 @@
 //! The congruence TᵀAT of a sparse matrix, row by row and in parallel; that of a symmetric one is symmetric to the bit.
 //!
 //! Rows are counted first and then written to their final place, so that no second copy of the result is needed.
+//!
+//! Entries are summed to twice the working precision and rounded once. A large mass away from the node of its patch makes terms m r² that
+//! hundreds of others are added to: an ulp of it at each of them is more than the smallest inertia of the patch can bear.
 
 use std::collections::BTreeMap;
 
@@ -9,6 +12,7 @@ use rayon::prelude::*;
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
 use crate::sparse::{RowStorage, SparseMatrix, filled};
+use crate::twofold::{Twofold, exact_product};
 
 /// Rows worth a thread of their own: tens of microseconds of work.
 const ROWS_PER_TASK: usize = 512;
@@ -40,7 +44,7 @@ fn rows(matrix: &SparseMatrix, moved: &Moved<'_>) -> RowStorage {
     filled(&lengths, Row::default, |row, dof, indices, values| {
         let places = indices.iter_mut().zip(values);
         let sums = row.gather(matrix, moved, dof).sums();
-        sums.zip(places).for_each(|((col, sum), (index, value))| (*index, *value) = (col, sum));
+        sums.zip(places).for_each(|((col, sum), (index, value))| (*index, *value) = (col, sum.value()));
     })
 }
 
@@ -98,7 +102,7 @@ struct Row {
     /// Column of each term in the upper half, its place among the values in the lower: sorted, the terms of a column stay in
     /// the order of the model, so that their sum is always the same.
     keys: Vec<u64>,
-    values: Vec<f64>,
+    values: Vec<Twofold>,
 }
 
 impl Row {
@@ -107,14 +111,15 @@ impl Row {
         self.clear();
         for (row, factor) in moved.with(dof) {
             for (col, value) in matrix.outer_view(row).iter().flat_map(|row| row.iter()) {
+                let term = exact_product(factor, *value);
                 match moved.has_long_rows {
-                    true => self.push(col as u32, factor * value),
-                    false => self.expand(moved, (col, factor * value)),
+                    true => self.push(col as u32, term),
+                    false => self.expand(moved, (col, term)),
                 }
             }
         }
         if moved.has_long_rows {
-            let columns: Vec<(u32, f64)> = self.sums().collect();
+            let columns: Vec<(u32, Twofold)> = self.sums().collect();
             self.clear();
             columns.into_iter().for_each(|(col, value)| self.expand(moved, (col as usize, value)));
         }
@@ -127,20 +132,20 @@ impl Row {
         self.values.clear();
     }
 
-    fn push(&mut self, column: u32, value: f64) {
+    fn push(&mut self, column: u32, value: Twofold) {
         self.keys.push(u64::from(column) << 32 | self.values.len() as u64);
         self.values.push(value);
     }
 
     /// The terms of a column of A.
-    fn expand(&mut self, moved: &Moved<'_>, (col, value): (usize, f64)) {
+    fn expand(&mut self, moved: &Moved<'_>, (col, value): (usize, Twofold)) {
         for (target, lever) in moved.transformation.rows[col].entries() {
             self.push(target, value * lever);
         }
     }
 
     /// Columns in ascending order, and the sum of the terms of each.
-    fn sums(&mut self) -> impl Iterator<Item = (u32, f64)> {
+    fn sums(&mut self) -> impl Iterator<Item = (u32, Twofold)> {
         self.keys.sort_unstable();
         let term = |key: &u64| self.values[(key & u64::from(u32::MAX)) as usize];
         let columns = self.keys.chunk_by(|left, right| left >> 32 == right >> 32);

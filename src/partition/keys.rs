@@ -83,7 +83,6 @@ impl Partition {
         let key = key.shown(&fit.is_preloaded()).shown(&mixed.as_ref().map(|mixed| &mixed.held));
         let key = transformation.dofs.iter().fold(key, |key, dof| key.shown(&dof.origin));
         let key = transformation.rows.iter().fold(key, |key, row| key.shown(row));
-        let key = patches.key(key).numbers(&[u8::from(mass_patches.is_some())]);
-        mass_patches.iter().fold(key, |key, patches| patches.key(key)).digest()
+        mass_patches.key(patches.key(key)).digest()
     }
 }

@@ -22,6 +22,7 @@ mod earlier;
 mod elimination;
 mod expansion;
 mod faces;
+mod far_masses;
 mod fitted;
 mod follower;
 mod further_matrices;

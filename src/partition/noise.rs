@@ -32,7 +32,7 @@ use rayon::prelude::*;
 use super::partition::Partition;
 use super::roundings::{Entry, Roundings};
 use crate::dense;
-use crate::sparse::{Rounding, absolute_product};
+use crate::sparse::{Leading, Rounding, absolute_product};
 
 /// p: the chance that roundings of one matrix make more of the energy of one motion than is said.
 pub const CHANCE_OF_MORE: f64 = 1e-12;
@@ -54,7 +54,7 @@ impl Partition {
         assert!(x.nrows() == self.n_dofs() || x.nrows() == self.n_internal, "{} rows of {}", x.nrows(), self.n_dofs());
         if !self.has_few_digits() {
             let sizes = dense::absolute(x);
-            let terms = absolute_product(crate::sparse::Leading::new(&self.stiffness, x.nrows()), x);
+            let terms = absolute_product(Leading::new(&self.stiffness, x.nrows()), x);
             return dense::dots(sizes.as_ref(), terms.as_ref())
                 .iter()
                 .map(|sum| self.precision.stiffness.relative * sum)
@@ -68,9 +68,11 @@ impl Partition {
     /// What rounding of the data of M can make of xᵀMx of each column, as [`Self::energy_noise`]; nothing where every entry of M is
     /// known to a share of itself.
     pub fn mass_noise(&self, x: MatRef<'_, f64>) -> Option<Vec<f64>> {
-        let patches = self.mass_patches.as_ref()?;
         let rounding = self.precision.mass;
-        let of = || Roundings::of(&self.mass, &self.transformation, patches, rounding);
+        if !rounding.is_beyond_entries() {
+            return None;
+        }
+        let of = || Roundings::of(&self.mass, &self.transformation, &self.mass_patches, rounding);
         Some(self.noise_of((self.mass_roundings.get_or_init(of), rounding, self.scaling.mass_unit()), x))
     }
 
@@ -140,6 +142,55 @@ impl Partition {
                 all.min(tail * (if rounding.is_of_parts { rounding.n_alike * squares } else { squares }).sqrt())
             })
             .collect()
+    }
+
+    /// What rounding of T, and of TᵀKT and TᵀMT to doubles, can make of xᵀKx − λ xᵀMx of each column, x of n' rows or of n_I where the
+    /// interface is held.
+    ///
+    /// ```text
+    /// f = K x̃ − λ M x̃                                      at rows that patches and constraints move, x̃ = T x
+    /// 4 ε Σ (|T||x|)_i |f_i|                                 a lever is the difference of two coordinates, each rounded; two more for weights
+    /// ε Σ |x_p| ((|TᵀKT| + λ|TᵀMT|)|x|)_p                    over the dofs p that rows follow
+    /// ```
+    pub fn rounding_of_patches(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Vec<f64> {
+        const ROUNDINGS_OF_A_LEVER: f64 = 4.0;
+        let followed = self.transformation.followed();
+        let leading = |matrix| Leading::new(matrix, x.nrows());
+        let mut found = vec![0.0; x.ncols()];
+        if !followed.contains(&true) {
+            return found;
+        }
+        for (first, found) in (0..x.ncols()).step_by(WIDTH).zip(found.chunks_mut(WIDTH)) {
+            let panel = x.subcols(first, found.len());
+            let lambda = &lambda[first..first + found.len()];
+            let (moved, sizes) = (self.extended(panel), self.extended_by_moduli(panel));
+            let mut forces = vec![[0.0; WIDTH]; self.patches.rows.len()];
+            self.patches.add_forces(&moved, &[1.0; WIDTH], &mut forces);
+            let mut minus = [0.0; WIDTH];
+            minus.iter_mut().zip(lambda).for_each(|(minus, lambda)| *minus = -lambda);
+            self.mass_patches.add_forces(&moved, &minus, &mut forces);
+            let [of_stiffness, of_mass] =
+                [&self.stiffness, &self.mass].map(|matrix| absolute_product(leading(matrix), panel));
+            for (j, found) in found.iter_mut().enumerate() {
+                let levers = forces.iter().zip(&sizes).map(|(force, size)| (force[j] * size[j]).abs()).sum::<f64>();
+                let entry = |p: usize| panel[(p, j)].abs() * (of_stiffness[(p, j)] + lambda[j].abs() * of_mass[(p, j)]);
+                let entries = (0..panel.nrows()).filter(|p| followed[*p]).map(entry).sum::<f64>();
+                *found = f64::EPSILON * (ROUNDINGS_OF_A_LEVER * levers + entries);
+            }
+        }
+        found
+    }
+
+    /// |T||x| at the rows of patches.
+    fn extended_by_moduli(&self, x: MatRef<'_, f64>) -> Vec<[f64; WIDTH]> {
+        let of_row = |entries: &[(u32, f64)]| {
+            let mut size = [0.0; WIDTH];
+            for (dof, factor) in entries.iter().filter(|(dof, _)| (*dof as usize) < x.nrows()) {
+                (0..x.ncols()).for_each(|j| size[j] += (factor * x[(*dof as usize, j)]).abs());
+            }
+            size
+        };
+        self.patches.rows.iter().map(|entries| of_row(entries)).collect()
     }
 
     /// T x at the dofs of the partition and at the rows of patches, row by row.

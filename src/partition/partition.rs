@@ -16,6 +16,7 @@ use crate::sparse::{Leading, SparseMatrix};
 
 use super::earlier::Earlier;
 use super::expansion::Expansion;
+use super::far_masses::far_masses;
 use super::follower::Follower;
 use super::further_matrices::CarriedMatrix;
 use super::gravity::Gravity;
@@ -87,8 +88,8 @@ pub struct Partition {
     pub(super) patches: PatchEntries,
     /// The entries of K by their sizes, once somebody asks.
     pub(super) roundings: OnceLock<Roundings>,
-    /// Entries of the model's M that they have taken up, where an entry may be off by more than a share of itself.
-    pub(super) mass_patches: Option<PatchEntries>,
+    /// Entries of the model's M that they have taken up.
+    pub(super) mass_patches: PatchEntries,
     /// The entries of M by their sizes, once somebody asks.
     pub(super) mass_roundings: OnceLock<Roundings>,
     /// What earlier runs have computed of the same matrices; none where the model has no cache.
@@ -101,7 +102,7 @@ struct Carried {
     mass: SparseMatrix,
     cancellation: f64,
     patches: PatchEntries,
-    mass_patches: Option<PatchEntries>,
+    mass_patches: PatchEntries,
 }
 
 impl Carried {
@@ -116,8 +117,7 @@ impl Carried {
         let cancellation = congruence::cancellation(&stiffness, &of_partition, transformation);
         let patches = PatchEntries::of(&stiffness, transformation, precision.stiffness);
         drop(stiffness);
-        let entries = |mass| PatchEntries::of(mass, transformation, precision.mass);
-        let mass_patches = precision.mass.is_beyond_entries().then(|| entries(&mass));
+        let mass_patches = PatchEntries::of(&mass, transformation, precision.mass);
         let mass = congruence::congruence(&mass, transformation);
         Ok(Self { stiffness: of_partition, mass, cancellation, patches, mass_patches })
     }
@@ -190,7 +190,9 @@ impl Partition {
             refuse_loose([stiffness, mass], &transformation, (names, &facts.rows))?;
             facts.n_bodies = n_bodies(stiffness, &transformation);
         }
-        findings.extend(far_origins.into_iter().chain(hanging_dofs(stiffness, &transformation, (names, &facts.rows))));
+        findings.extend(far_origins);
+        findings.extend(far_masses(mass, &transformation, names));
+        findings.extend(hanging_dofs(stiffness, &transformation, (names, &facts.rows)));
         Ok(Self {
             cancellation: carried.cancellation,
             fit: model.fit,

@@ -78,6 +78,26 @@ impl PatchEntries {
     }
 }
 
+impl PatchEntries {
+    /// Adds A x̃, times a factor for each column, at the rows of patches: `moved` has x̃ at the dofs of the partition and behind them at
+    /// those rows.
+    pub(super) fn add_forces<const W: usize>(&self, moved: &[[f64; W]], factors: &[f64; W], forces: &mut [[f64; W]]) {
+        let n = moved.len() - self.rows.len();
+        let mut add = |row: u32, col: u32, value: f64| {
+            if let Some(force) = (row as usize).checked_sub(n).and_then(|at| forces.get_mut(at)) {
+                let columns = force.iter_mut().zip(&moved[col as usize]).zip(factors);
+                columns.for_each(|((force, x), factor)| *force += factor * value * x);
+            }
+        };
+        for Entry { row, col, value } in &self.entries {
+            add(*row, *col, *value);
+            if row != col {
+                add(*col, *row, *value);
+            }
+        }
+    }
+}
+
 /// What the roundings of the entries of a matrix are relative to.
 struct Sizes {
     rounding: Rounding,

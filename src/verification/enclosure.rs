@@ -10,7 +10,8 @@
 //! ‖Tx − x/μ̃‖_{K_s} = ρ‖x‖_{K_s}/μ̃: some eigenvalue has |μ̃/μ − 1| ≤ ρ. Groups of modes whose intervals overlap hold as
 //! many eigenvalues as they have modes (Kahan 1967; Cao, Xie and Li 1996). Where a count proves that there are no others, each
 //! group holds exactly the eigenvalues of its modes, the distances to the neighbours are known, and the interval of a single mode shrinks
-//! to μ̃ρ²/gap (Kato 1949, Temple 1928). Everything is an upper bound that includes the rounding of its own computation.
+//! to μ̃ρ²/gap (Kato 1949, Temple 1928). Everything is an upper bound that includes the rounding of its own computation; the rounding
+//! that the matrices have taken up with rigid patches and constraints is added to first order.
 
 mod bracket;
 mod exact;
@@ -87,6 +88,7 @@ pub fn enclosures(
     boundary: Boundary,
 ) -> Result<Enclosures> {
     let (pencil, zero_modes) = (partition.pencil_under(boundary), rigid.under(boundary));
+    let of_patches = moved_by_patches(partition, modes);
     let rows = partition.rows_under(boundary, modes.shapes.as_ref());
     let rows = rows.map(|shapes| Modes { shapes, ..modes.clone() });
     let modes = rows.as_ref().unwrap_or(modes);
@@ -107,7 +109,9 @@ pub fn enclosures(
     for (index, group) in groups.iter().enumerate() {
         let neighbours = count.is_proved().then(|| bracket::neighbours(&groups, index, ceiling, metric.sigma));
         for member in group.members.clone().filter(|member| *member >= n_zero) {
-            intervals[member - n_zero] = Some(group.interval_of(&pairs, member, neighbours));
+            let [low, high] = group.interval_of(&pairs, member, neighbours);
+            let moved = of_patches[member - n_zero];
+            intervals[member - n_zero] = Some([low - moved, high + moved]);
         }
     }
     let clusters = bracket::clusters(&pairs, &groups);
@@ -118,6 +122,13 @@ pub fn enclosures(
         }
     }
     Ok(Enclosures { intervals, angles, count, n_factorisations: n_metric + 1 })
+}
+
+/// How far each eigenvalue of the matrices with patches and constraints in them may be from that of the matrices as they were given:
+/// quotients of modes of unit modal mass move by so much in first order, and twice that covers the second.
+fn moved_by_patches(partition: &Partition, modes: &Modes) -> Vec<f64> {
+    let moved = partition.rounding_of_patches(modes.shapes.as_ref(), &modes.lambda);
+    moved.into_iter().map(|moved| 2.0 * moved).collect()
 }
 
 /// The count above the highest mode, how far it is proved, and the eigenvalue up to which there are no others.

@@ -13,8 +13,7 @@ use faer::{Mat, MatRef};
 use super::evidence::Evidence;
 use crate::dense;
 use crate::eigen::Equilibrated;
-use crate::sparse::Pencil;
-use crate::sparse::product_and_terms;
+use crate::sparse::{Pencil, energies_of_terms, product_and_terms};
 
 /// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a
 /// row of smaller terms than this could not keep within 10⁻¹¹ of them (M-02).
@@ -38,9 +37,10 @@ impl<'a> Rows<'a> {
     /// What the columns of x, with their λ_j, leave of the pencil.
     pub(super) fn residuals(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Residuals {
         let (forces, mut terms) = product_and_terms(self.pencil.stiffness, x);
-        let mut residual = forces.clone();
+        let (mut residual, mut inertia_terms) = (forces.clone(), vec![0.0; lambda.len()]);
         if lambda.iter().any(|lambda| *lambda != 0.0) {
             let (momenta, of_mass) = product_and_terms(self.pencil.mass, x);
+            inertia_terms = energies_of_terms(x, of_mass.as_ref());
             for (j, lambda) in lambda.iter().enumerate() {
                 let column = dense::column_mut(residual.as_mut(), j);
                 column
@@ -51,7 +51,7 @@ impl<'a> Rows<'a> {
                 dense::add_scaled(terms, lambda.abs(), dense::column(of_mass.as_ref(), j));
             }
         }
-        Residuals { forces, residual, terms }
+        Residuals { forces, residual, terms, inertia_terms }
     }
 
     /// max ω_i over the rows that have a residual, and the row it is reached at.
@@ -88,6 +88,8 @@ pub(super) struct Residuals {
     pub(super) residual: Mat<f64>,
     /// (|K| + |λ||M|)|x|.
     pub(super) terms: Mat<f64>,
+    /// |x|ᵀ|M||x| of each, where it has a λ.
+    pub(super) inertia_terms: Vec<f64>,
 }
 
 /// The largest of several errors, with the column and the row it belongs to.

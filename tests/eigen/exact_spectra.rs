@@ -125,3 +125,26 @@ fn powers_of_two_change_no_bit() {
         }
     }
 }
+
+/// Two eigenvalues a few roundings apart are printed as their mean, whose bar reaches both.
+#[test]
+fn nearly_double_eigenvalues_lie_within_their_bar() {
+    let of_spectrum = |exact: &[f64]| {
+        let diagonal = |values: &[f64]| (0..).zip(values).map(|(i, value)| (i, i, *value)).collect();
+        let (stiffness, mass) = (diagonal(exact), diagonal(&vec![1.0; exact.len()]));
+        Model { stiffness, mass, ..known(exact, fnv1a("double")) }
+    };
+    for n_ulps in [1.0, 4.0, 7.0, 8.0, 20.0] {
+        let mut exact: Vec<f64> = (0..60).map(|i| 1.0 + 3.0 * f64::from(i)).collect();
+        exact.insert(1, 1.0 + n_ulps * f64::EPSILON);
+        let component = Component::new(&of_spectrum(&exact));
+        for &eigensolver in eigensolvers() {
+            let modes = component.modes(Wanted::Count(2), eigensolver);
+            for j in 0..2 {
+                let (found, bar) = (modes.lambda[j] * component.unit(), modes.errors[j].relative_bar);
+                let error = (found / exact[j] - 1.0).abs();
+                assert!(error <= bar, "{eigensolver:?}, {n_ulps} ulps: {found:e} is off by {error:e}, bar {bar:e}");
+            }
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use faer::Mat;
 use supel::dense;
 use supel::error::Error;
-use supel::job::{Coupling, InterfaceJob};
+use supel::job::{Coupling, InterfaceJob, Origin};
 use supel_models::model::Entry;
 use supel_models::transform::{carrying, grounded, join, rounded, scaled, supported};
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
@@ -319,6 +319,34 @@ fn soft_springs_hold_a_part_with_a_heavy_mass() {
         let rounding = 0.1f64.powi(digits).max(f64::EPSILON);
         let tolerance = 10.0 * softness + 100.0 * rounding / softness;
         assert!(worst_ratio(&found[..6], &expected) <= tolerance, "{digits}: {found:?} for {expected:?}");
+    }
+}
+
+/// A mass at a corner of a patch, described by the motion of a node at its middle and by that of the corner itself: the same modes within
+/// the bars of both. About the middle terms m r² are all but what is left of them, and hundreds of small ones are added to them.
+#[test]
+fn ms_07_a_heavy_mass_away_from_the_node_of_its_patch() {
+    let block = brick([3, 9, 9], [1.0, 1.3, 1.1], &Material::UNIT);
+    let about_middle = rigid_ends(&block, 1.0);
+    let corner = labels_at(&block, |x| x == 0.0)[0];
+    let at = block.nodes[block.labels.iter().position(|label| *label == corner).expect("a node")];
+    let mut about_mass = about_middle.clone();
+    about_mass[0].origin = Origin::Point(at);
+    for mass in [1e3, 1e4, 1e6, 1e7] {
+        let model = carrying(&block, &[corner], mass);
+        for method in ["herting", "craig-bampton"] {
+            let found = Case::new(&model, &about_middle).method(method).count(8).accepted();
+            let is_told = warnings(&found).contains(&"W-MASS-FAR");
+            assert_eq!(is_told, mass >= 1e6, "{method}, {mass}");
+            let expected = Case::new(&model, &about_mass).method(method).count(8).clean();
+            let with_bars = eigenvalues(&found).into_iter().zip(bars(&found));
+            for ((found, bar), (expected, other)) in with_bars.zip(eigenvalues(&expected).iter().zip(bars(&expected))) {
+                assert!(
+                    (found / expected - 1.0).abs() <= bar + other,
+                    "{method}, {mass}: {found} ± {bar} for {expected}"
+                );
+            }
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use supel::dense;
 use supel::error::Error;
-use supel::job::{Coupling, InterfaceJob, Job, NodeSelection};
+use supel::job::{Coupling, InterfaceJob, Job, NodeSelection, Origin};
 use supel::memory_forecast::Resources;
 use supel::outcome::Outcome;
 use supel::verification::check::{Check, Verdict};
@@ -203,6 +203,9 @@ impl Case {
             let coupling = if interface.coupling == Coupling::Rigid { "rigid" } else { "direct" };
             job +=
                 &format!("[[interface]]\nname = \"{}\"\nnodes = {nodes}\ncoupling = \"{coupling}\"\n", interface.name);
+            if let Origin::Point(at) = interface.origin {
+                job += &format!("origin = {at:?}\n");
+            }
             if let Some(dofs) = &interface.dofs {
                 let names: Vec<String> = dofs.iter().map(ToString::to_string).collect();
                 job += &format!("dofs = {names:?}\n");

@@ -6,6 +6,7 @@ use super::asked::AskedModes;
 use super::entries::FAR;
 use super::scaled::Scaled;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::{ModeError, Modes, mean_is_away, n_taken_for_one};
 use crate::sparse::Precision;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
@@ -55,7 +56,8 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
     let metadata = superelement.metadata();
     // Shapes turn by rounding, and where two eigenvalues are nearly one they turn far, and their bars with them.
     let limits_of = |mode: usize| {
-        let turn = NOISE_FACTOR * asked.angles[mode].max(asked.turns_inside[mode]);
+        let turn = asked.angles[mode].max(asked.turns_inside[mode]).max(turned_by_products(&asked.modes, mode));
+        let turn = NOISE_FACTOR * turn;
         Limits { engineering: SAME_SHAPES, arithmetic: turn, data: 0.0 }.capped(LARGEST_TURN, 0.0)
     };
     let limits_of_none = Limits { engineering: SAME_SHAPES, ..Limits::default() };
@@ -68,7 +70,10 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
         // A bar is what roundings make of an energy over λ, and λ may be known to a few digits only: energies are compared.
         let same_lambda = stated / asked.lambda()[mode];
         let found = match error_bar_hz {
-            Some(bar) => outside(2.0 * bar / frequency_hz * same_lambda, error.data_bar, NOISE_FACTOR * of_residual),
+            Some(bar) => {
+                let of_data = shares_of_data(&asked.modes, mode);
+                outside(2.0 * bar / frequency_hz * same_lambda, of_data, NOISE_FACTOR * of_residual)
+            }
             None if error.relative_bar.is_finite() => f64::INFINITY,
             None => 0.0,
         };
@@ -88,9 +93,30 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
     }
 }
 
+/// What the share of the data may be, at least and at most. Of two frequencies a few roundings apart one eigensolver makes their mean, with a
+/// bar that reaches both, and another one does not.
+fn shares_of_data(modes: &Modes, mode: usize) -> [f64; 2] {
+    let error = &modes.errors[mode];
+    let n_alike = n_taken_for_one(&modes.lambda, &modes.errors, mode);
+    let away = mean_is_away(error.cancellation, n_alike);
+    // Without digits that are missing the bar of a mean is so many times that of one.
+    let least = error.data_bar / (2 * n_alike - 1) as f64;
+    [least.max(error.data_bar - away), error.data_bar + away]
+}
+
+/// What rounding of products makes of the terms of a mode, relative to them. An eigensolver takes a pair at 16 ε of the largest terms and of
+/// the largest θ. By so much of its length a shape is turned along a motion that has terms c_max and next to no mass, and terms of
+/// c_j change by twice √(c_max / c_j) times that.
+fn turned_by_products(modes: &Modes, mode: usize) -> f64 {
+    let cancellation = |error: &ModeError| error.cancellation;
+    let largest = modes.errors.iter().map(cancellation).fold(0.0, f64::max);
+    let spread = modes.lambda.last().zip(modes.lambda.first()).map_or(1.0, |(last, first)| last / first);
+    32.0 * f64::EPSILON * largest * spread * (largest / cancellation(&modes.errors[mode])).sqrt()
+}
+
 /// How far a relative error bar lies outside of what it can be: the share of the data, and up to that of the residual more.
-fn outside(bar: f64, of_data: f64, of_residual: f64) -> f64 {
-    let (low, high) = (of_data, of_data + of_residual);
+fn outside(bar: f64, of_data: [f64; 2], of_residual: f64) -> f64 {
+    let [low, high] = [of_data[0], of_data[1] + of_residual];
     if bar < low {
         (low - bar) / low
     } else if bar > high {

@@ -3,12 +3,13 @@
 use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
-use super::exact::{self, Double, UNIT};
+use super::exact;
 use super::metric::Metric;
 use crate::dense;
 use crate::eigen::Modes;
 use crate::factor::SolveOperator;
 use crate::rigid::RigidBodyModes;
+use crate::twofold::{Twofold, UNIT};
 
 /// A computed mode, λ̃ and ρ.
 #[derive(Clone, Debug)]
@@ -105,11 +106,11 @@ impl Started {
         let many = (y.len() + 8) as f64 * UNIT;
         let image = |i: usize| force.image[i] - momentum.image[i] * metric.sigma;
         let terms = |i: usize| force.terms[i] - metric.sigma * momentum.terms[i];
-        let images: Vec<Double> = (0..y.len()).map(image).collect();
+        let images: Vec<Twofold> = (0..y.len()).map(image).collect();
         let energy_terms: f64 = y.iter().enumerate().map(|(i, y)| y.abs() * terms(i)).sum();
         let energy = (exact::dot(y, &images).value() + many * energy_terms).max(0.0).sqrt();
         let left = (0..y.len()).map(|i| {
-            let left = (Double::from(self.residual[i]) - images[i]).value();
+            let left = (Twofold::from(self.residual[i]) - images[i]).value();
             left.abs() * (1.0 + U) + many * terms(i) + self.error[i]
         });
         let residual = OUTWARD * (energy * (1.0 + 4.0 * U) + metric.dual_bound(left)) / self.length;
