@@ -3186,9 +3186,9 @@ pub enum Error {
     /// static modes.
     #[entry("E-ATTACHMENT", ModelPhysics, "use herting, or craig-bampton with inertia relief")]
     #[error(
-        "accelerations of the body do not strain its interior, or not each in a way of its own – expected a strain for every rigid-body \
-        motion, of which Rubin's attachment modes are made; a mass far larger than the rest leaves rotations about it none – use \
-        herting or craig-bampton"
+        "accelerations of the body do not deform its interior, or not each in a way of its own – expected a deformation for every \
+        rigid-body motion, of which Rubin's attachment modes are made; a mass far larger than the rest leaves rotations about it none \
+        – use herting or craig-bampton"
     )]
     NoAttachmentModes,
     /// The interface of Rubin's method leaves rigid-body motions free, and the answers to unit loads on it are nearly dependent.
