@@ -248,17 +248,18 @@ pub fn spectrum(k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Vec<f64> {
 
 fn shifted_spectrum(k: MatRef<'_, f64>, m: MatRef<'_, f64>, s: f64) -> Vec<f64> {
     let n = k.nrows();
-    let scale: Vec<f64> = (0..n).map(|i| (k[(i, i)] + s * m[(i, i)]).sqrt().recip()).collect();
-    let shifted = Mat::from_fn(n, n, |i, j| (k[(i, j)] + s * m[(i, j)]) * scale[i] * scale[j]);
-    let energies = shifted.self_adjoint_eigenvalues(Side::Lower).expect("a finite matrix");
+    let shifted = Mat::from_fn(n, n, |i, j| k[(i, j)] + s * m[(i, j)]);
     let l = shifted.llt(Side::Lower).expect("K + sM is definite").L().to_owned();
-    let mut c = Mat::from_fn(n, n, |i, j| m[(i, j)] * scale[i] * scale[j]);
+    let mut c = m.to_owned();
     l.solve_lower_triangular_in_place(&mut c);
     let mut c = c.transpose().to_owned();
     l.solve_lower_triangular_in_place(&mut c);
     let nu = c.self_adjoint_eigenvalues(Side::Lower).expect("a finite matrix");
     let top = nu[n - 1];
-    // ν of a massless motion is rounding, which two substitutions enlarge by the condition of the factor.
+    // ν of a massless motion is rounding, which two substitutions enlarge by the condition of K + sM at unit diagonal.
+    let size = |i: usize| shifted[(i, i)].sqrt();
+    let at_unit_diagonal = Mat::from_fn(n, n, |i, j| shifted[(i, j)] / (size(i) * size(j)));
+    let energies = at_unit_diagonal.self_adjoint_eigenvalues(Side::Lower).expect("a finite matrix");
     let rounding = n as f64 * EPS * energies[n - 1] / energies[0];
     nu.iter().rev().filter(|nu| **nu > rounding * top).map(|nu| 1.0 / nu - s).collect()
 }
