@@ -191,8 +191,7 @@ impl Partition {
             facts.n_bodies = n_bodies(stiffness, &transformation);
         }
         findings.extend(far_origins);
-        findings.extend(far_masses(mass, &transformation, names));
-        findings.extend(hanging_dofs(stiffness, &transformation, (names, &facts.rows)));
+        findings.extend(of_interface([stiffness, mass], &transformation, (names, &facts.rows)));
         Ok(Self {
             cancellation: carried.cancellation,
             fit: model.fit,
@@ -358,6 +357,17 @@ fn n_bodies(stiffness: &SparseMatrix, transformation: &Transformation) -> usize 
 /// Whether a row of a matrix has no entry other than zero.
 fn is_bare(matrix: &SparseMatrix, dof: usize) -> bool {
     matrix.outer_view(dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0))
+}
+
+/// What is to be said of the masses and the stiffness of interface dofs.
+fn of_interface(
+    [stiffness, mass]: [&SparseMatrix; 2],
+    transformation: &Transformation,
+    (names, rows): (NodeNames<'_>, &FileRows),
+) -> Vec<Finding> {
+    let mut findings = far_masses(mass, transformation, names);
+    findings.extend(hanging_dofs(stiffness, transformation, (names, rows)));
+    findings
 }
 
 /// Interface dofs that no stiffness reaches; the model has seen to it that they have mass.
