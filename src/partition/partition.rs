@@ -190,8 +190,7 @@ impl Partition {
             refuse_loose([stiffness, mass], &transformation, (names, &facts.rows))?;
             facts.n_bodies = n_bodies(stiffness, &transformation);
         }
-        findings.extend(far_origins);
-        findings.extend(of_interface([stiffness, mass], &transformation, (names, &facts.rows)));
+        findings.extend(of_interface(far_origins, [stiffness, mass], &transformation, (names, &facts.rows)));
         Ok(Self {
             cancellation: carried.cancellation,
             fit: model.fit,
@@ -359,13 +358,14 @@ fn is_bare(matrix: &SparseMatrix, dof: usize) -> bool {
     matrix.outer_view(dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0))
 }
 
-/// What is to be said of the masses and the stiffness of interface dofs.
+/// What is to be said of the masses and the stiffness of interface dofs, behind what was found of their origins.
 fn of_interface(
+    mut findings: Vec<Finding>,
     [stiffness, mass]: [&SparseMatrix; 2],
     transformation: &Transformation,
     (names, rows): (NodeNames<'_>, &FileRows),
 ) -> Vec<Finding> {
-    let mut findings = far_masses(mass, transformation, names);
+    findings.extend(far_masses(mass, transformation, names));
     findings.extend(hanging_dofs(stiffness, transformation, (names, rows)));
     findings
 }
