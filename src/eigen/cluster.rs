@@ -24,11 +24,14 @@ pub(super) fn repeated(lambda: &[f64], errors: &[ModeError]) -> Vec<Range<usize>
     runs(lambda, errors, REPEATED_WITHIN)
 }
 
-/// How many modes may have been taken for copies of one eigenvalue with this one, by whoever has these quotients but for their rounding; one
-/// where there are no others.
-pub(crate) fn n_taken_for_one(lambda: &[f64], errors: &[ModeError], mode: usize) -> usize {
-    let runs = runs(lambda, errors, 2.0 * REPEATED_WITHIN);
-    runs.iter().find(|run| run.contains(&mode)).map_or(1, |run| run.len())
+/// For each mode how many, itself among them, may have been taken for copies of one eigenvalue by whoever has these quotients but for
+/// their rounding.
+pub(crate) fn taken_for_one(lambda: &[f64], errors: &[ModeError]) -> Vec<usize> {
+    let mut n_alike = vec![1; lambda.len()];
+    for run in runs(lambda, errors, 2.0 * REPEATED_WITHIN) {
+        n_alike[run.clone()].fill(run.len());
+    }
+    n_alike
 }
 
 /// How far the mean of so many quotients may be from each, relative to it: half of what neighbours of a run may differ by, for each of them.

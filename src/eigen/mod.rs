@@ -30,7 +30,7 @@ mod spectral;
 pub(crate) mod zero;
 
 pub use cluster::REPEATED_WITHIN;
-pub(crate) use cluster::{mean_is_away, n_taken_for_one};
+pub(crate) use cluster::{mean_is_away, taken_for_one};
 pub(crate) use dense_pencil::{eigenvalue_beyond, eigenvalues, lowest_eigenpairs, lowest_ratio_of};
 pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};
@@ -46,6 +46,7 @@ pub use problem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted}
 pub(crate) use problem::{are_clustered, is_above};
 pub(crate) use quality::rayleigh_quotients;
 pub use quality::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
+pub(crate) use ritz::RESIDUAL_FLOOR;
 pub(crate) use shifted::first_shift;
 pub use shifted::{Shifted, shifted};
 pub(crate) use spectral::{Spectral, complex_shift, scaled_by, sharpen};

@@ -45,6 +45,16 @@ impl Modes {
         }
     }
 
+    /// The largest λ over the smallest; one without modes.
+    pub fn spread(&self) -> f64 {
+        self.lambda.last().zip(self.lambda.first()).map_or(1.0, |(last, first)| last / first)
+    }
+
+    /// How much larger than the modal energy the terms that cancel in it are, at most.
+    pub fn largest_cancellation(&self) -> f64 {
+        self.errors.iter().map(|error| error.cancellation).fold(0.0, f64::max)
+    }
+
     /// Modes between two shifts.
     pub fn n_between(&self, from: f64, to: f64) -> usize {
         self.lambda.iter().filter(|lambda| from < **lambda && **lambda < to).count()

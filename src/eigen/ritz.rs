@@ -14,7 +14,7 @@ const SHARE_OF_DISTANCE: f64 = 0.1;
 /// Rounding of OP in units of ε times its largest eigenvalue: a θ below it is that of an infinite eigenvalue.
 pub(super) const ROUNDING: f64 = 16.0;
 /// Residuals in the same units that need not fall further.
-pub(super) const RESIDUAL_FLOOR: f64 = 16.0;
+pub(crate) const RESIDUAL_FLOOR: f64 = 16.0;
 
 /// What an iteration looks for.
 #[derive(Clone, Copy)]
@@ -28,7 +28,7 @@ pub(super) struct Ritz {
     pub(super) theta: Vec<f64>,
     pub(super) s: Mat<f64>,
     pub(super) residuals: Vec<f64>,
-    /// Residuals that need not fall further; the correction in [`Basis::extract`] takes up the rest.
+    /// Residuals that need not fall further; what is extracted from the basis is corrected by the rest.
     floor: f64,
 }
 

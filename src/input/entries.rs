@@ -149,10 +149,8 @@ impl<'a> Cursor<'a> {
     /// An index from 1 to n, returned from 0.
     fn index(&mut self, field: &'static str, n: u32) -> Result<u32, What> {
         let start = self.at;
-        let found = match self.short_whole() {
-            Some(found) => found,
-            None => self.whole(),
-        };
+        let short = self.short_whole();
+        let found = short.unwrap_or_else(|| self.whole());
         if self.at == start || !self.at_field_end() {
             self.at = start;
             return Err(What::Field { field, found: self.found(), expected: "a whole number from 1" });
@@ -173,7 +171,7 @@ impl<'a> Cursor<'a> {
         found
     }
 
-    /// The same of up to seven digits, all at once; nothing, and no move, where there may be more.
+    /// The digits that start here, read at once where they are seven at most. None where there may be more of them, and the place stays.
     #[inline]
     fn short_whole(&mut self) -> Option<u64> {
         let eight = self.text.get(self.at..self.at + 8)?;

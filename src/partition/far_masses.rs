@@ -14,7 +14,8 @@ use faer::Mat;
 use super::interface_node::NodeNames;
 use super::transformation::{DofOrigin, Transformation};
 use crate::dense;
-use crate::model::Finding;
+use crate::dofs::Direction;
+use crate::model::{Finding, Site};
 use crate::sparse::SparseMatrix;
 
 /// Loss from which on rounding of products with M leaves more in single rows than M-02 lets pass, some 10⁻¹⁰ of their terms.
@@ -64,25 +65,16 @@ fn offset_of(block: &Mat<f64>) -> [f64; 3] {
     [skew(1, 2), skew(2, 0), skew(0, 1)]
 }
 
-/// M_p of a node at a place r from the one it is given for: the motion of that one is t − θ × r, θ.
+/// M_p of a node at a place r from the one it is given for, whose dofs are at −r from that one.
 fn about(block: &Mat<f64>, place: [f64; 3]) -> Mat<f64> {
-    let back = motion_at(place.map(|x| -x));
-    let moved = Mat::from_fn(6, 6, |i, j| if i < 3 { back[(i, j)] } else { f64::from(u8::from(i == j)) });
+    let moved = motion_of_node(place.map(|x| -x));
     dense::product(moved.transpose(), dense::product(block.as_ref(), moved.as_ref()).as_ref())
 }
 
-/// Translation of the point at r by the motion of a node: t + θ × r, 3 × 6.
-fn motion_at([x, y, z]: [f64; 3]) -> Mat<f64> {
-    Mat::from_fn(3, 6, |i, j| match (i, j) {
-        (i, j) if i == j => 1.0,
-        (0, 4) => z,
-        (0, 5) => -y,
-        (1, 3) => -z,
-        (1, 5) => x,
-        (2, 3) => y,
-        (2, 4) => -x,
-        _ => 0.0,
-    })
+/// The six dofs of a node at r from another one, by the motion of that one, 6 × 6.
+fn motion_of_node(position: [f64; 3]) -> Mat<f64> {
+    let rows = Direction::ALL.map(|direction| Site { position, direction }.rigid_motion());
+    Mat::from_fn(6, 6, |i, j| rows[i][j])
 }
 
 #[cfg(test)]
@@ -91,8 +83,9 @@ mod tests {
 
     /// M of a mass m at r, and of a unit mass with inertia at the node.
     fn block(m: f64, r: [f64; 3]) -> Mat<f64> {
-        let turn = motion_at(r);
-        let far = dense::product(turn.transpose(), turn.as_ref());
+        let motion = motion_of_node(r);
+        let turn = motion.subrows(0, 3);
+        let far = dense::product(turn.transpose(), turn);
         Mat::from_fn(6, 6, |i, j| m * far[(i, j)] + if i == j { 1.0 } else { 0.0 })
     }
 

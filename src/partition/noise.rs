@@ -163,7 +163,7 @@ impl Partition {
         for (first, found) in (0..x.ncols()).step_by(WIDTH).zip(found.chunks_mut(WIDTH)) {
             let panel = x.subcols(first, found.len());
             let lambda = &lambda[first..first + found.len()];
-            let (moved, sizes) = (self.extended(panel), self.extended_by_moduli(panel));
+            let moved = self.extended(panel);
             let mut forces = vec![[0.0; WIDTH]; self.patches.rows.len()];
             self.patches.add_forces(&moved, &[1.0; WIDTH], &mut forces);
             let mut minus = [0.0; WIDTH];
@@ -171,6 +171,7 @@ impl Partition {
             self.mass_patches.add_forces(&moved, &minus, &mut forces);
             let [of_stiffness, of_mass] =
                 [&self.stiffness, &self.mass].map(|matrix| absolute_product(leading(matrix), panel));
+            let sizes: Vec<[f64; WIDTH]> = self.at_patches(panel, f64::abs).collect();
             for (j, found) in found.iter_mut().enumerate() {
                 let levers = forces.iter().zip(&sizes).map(|(force, size)| (force[j] * size[j]).abs()).sum::<f64>();
                 let entry = |p: usize| panel[(p, j)].abs() * (of_stiffness[(p, j)] + lambda[j].abs() * of_mass[(p, j)]);
@@ -181,31 +182,25 @@ impl Partition {
         found
     }
 
-    /// |T||x| at the rows of patches.
-    fn extended_by_moduli(&self, x: MatRef<'_, f64>) -> Vec<[f64; WIDTH]> {
-        let of_row = |entries: &[(u32, f64)]| {
-            let mut size = [0.0; WIDTH];
-            for (dof, factor) in entries.iter().filter(|(dof, _)| (*dof as usize) < x.nrows()) {
-                (0..x.ncols()).for_each(|j| size[j] += (factor * x[(*dof as usize, j)]).abs());
-            }
-            size
-        };
-        self.patches.rows.iter().map(|entries| of_row(entries)).collect()
-    }
-
     /// T x at the dofs of the partition and at the rows of patches, row by row.
     fn extended(&self, x: MatRef<'_, f64>) -> Vec<[f64; WIDTH]> {
-        let mut extended = vec![[0.0; WIDTH]; self.n_dofs() + self.patches.rows.len()];
-        for j in 0..x.ncols() {
-            let column = dense::column(x, j);
-            extended.iter_mut().zip(column).for_each(|(row, value)| row[j] = *value);
-        }
-        let (own, patches) = extended.split_at_mut(self.n_dofs());
-        for (row, entries) in patches.iter_mut().zip(&self.patches.rows) {
-            for (dof, factor) in entries {
-                row.iter_mut().zip(own[*dof as usize]).for_each(|(row, value)| *row += factor * value);
-            }
-        }
-        extended
+        let own = (0..self.n_dofs()).map(|dof| row_of(x, dof));
+        own.chain(self.at_patches(x, |term| term)).collect()
     }
+
+    /// Sums of what `of` makes of the terms of T x, at the rows of patches.
+    fn at_patches(&self, x: MatRef<'_, f64>, of: impl Fn(f64) -> f64) -> impl Iterator<Item = [f64; WIDTH]> {
+        self.patches.rows.iter().map(move |entries| {
+            let mut sums = [0.0; WIDTH];
+            for (dof, factor) in entries {
+                sums.iter_mut().zip(row_of(x, *dof as usize)).for_each(|(sum, value)| *sum += of(factor * value));
+            }
+            sums
+        })
+    }
+}
+
+/// A row of x; zeros behind its last one, where the interface is held.
+fn row_of(x: MatRef<'_, f64>, row: usize) -> [f64; WIDTH] {
+    std::array::from_fn(|j| if row < x.nrows() && j < x.ncols() { x[(row, j)] } else { 0.0 })
 }

@@ -377,7 +377,8 @@ pub const CATALOGUE: &[Entry] = &[
         Recorded::WithAttachmentModes(2),
         "Rubin's residual attachment modes are put into the full matrices: nothing of them is rigid-body motion, and the forces that \
          keep them act on the interface alone, but for the inertia of the free body.",
-        "Unit accelerations hardly deform the interior: use --method herting, which has its inertia-relief modes as coordinates.",
+        "Unit accelerations hardly deform the interior, or not each in a way of its own: use --method herting, which has its inertia-relief \
+         modes as coordinates.",
     ),
     line(
         "M-23",

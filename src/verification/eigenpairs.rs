@@ -14,7 +14,7 @@ use super::evidence::Evidence;
 use super::limits::UNKNOWN;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
+use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, RESIDUAL_FLOOR, mass_orthogonality};
 use crate::job::Boundary;
 use crate::modes::Retained;
 use crate::sparse::Pencil;
@@ -28,7 +28,7 @@ const MAX_SOLVE_RESIDUAL: f64 = 1e-8;
 const MOST_MIXED: f64 = NOTICED_BAR;
 
 /// The residual that the eigensolver takes a pair at, a share of the largest θ.
-const TAKEN_AT: f64 = 16.0 * f64::EPSILON;
+const TAKEN_AT: f64 = RESIDUAL_FLOOR * f64::EPSILON;
 /// Terms of a unit modal mass that nearly cancel: those of meshes are of the size of ten.
 const CANCELS: f64 = 1e3;
 /// What rounding of products with M explains of the residual of one row, at most: half of it is what it may be of a frequency.
@@ -107,12 +107,6 @@ impl Pairs {
     }
 }
 
-/// The largest λ over the smallest.
-fn spread(evidence: &Evidence<'_>) -> f64 {
-    let lambda = &evidence.retained.modes.lambda;
-    lambda.last().copied().unwrap_or(1.0) / lambda.first().copied().unwrap_or(1.0)
-}
-
 /// The largest relative gap within a run of modes whose error bars meet: rounding mixes their shapes, and a mixture of two eigenvectors
 /// leaves a residual of that share of λ. Digits that the data lack mix nothing, for the eigensolver has the matrices as they are.
 fn mixed_by_rounding(evidence: &Evidence<'_>) -> f64 {
@@ -135,7 +129,7 @@ fn mixed_by_rounding(evidence: &Evidence<'_>) -> f64 {
 fn residual_limits(evidence: &Evidence<'_>) -> Limits {
     let digits = evidence.partition.precision.share();
     // The eigensolver takes a pair at a residual of 16 ε of the largest θ = 1/λ, which is this share of its own.
-    let solver = (TAKEN_AT * spread(evidence)).max(mixed_by_rounding(evidence));
+    let solver = (TAKEN_AT * evidence.retained.modes.spread()).max(mixed_by_rounding(evidence));
     // On a free component a load is balanced by the interface first and the rigid-body motion taken out afterwards.
     // That motion is up to 1/ratio times the elastic one, and K lets it pass only to the precision of its data; ten
     // stands for the sum over the rigid-body modes. An interface that holds too badly is not used for this.
@@ -155,7 +149,7 @@ fn residual_limits(evidence: &Evidence<'_>) -> Limits {
 /// What products with M leave of a residual, relative to the terms it is summed from. They are rounded to ε of terms that nearly cancel
 /// where a large mass is far from the node that its motion is described at, and the eigensolver then takes a pair at that.
 fn left_by_products(evidence: &Evidence<'_>, pairs: &Pairs) -> f64 {
-    if pairs.inertia_terms < CANCELS { 0.0 } else { TAKEN_AT * pairs.inertia_terms * spread(evidence) }
+    if pairs.inertia_terms < CANCELS { 0.0 } else { TAKEN_AT * pairs.inertia_terms * evidence.retained.modes.spread() }
 }
 
 /// M-01.
@@ -235,10 +229,10 @@ pub(super) fn orthogonality(evidence: &Evidence<'_>) -> Check {
 pub(super) fn stiffness_orthogonality(evidence: &Evidence<'_>, pairs: &Pairs) -> Check {
     const FAIL: f64 = 1e-7;
     let (value, (a, b)) = pairs.coupling;
-    let cancellation = evidence.retained.modes.errors.iter().map(|error| error.cancellation).fold(0.0, f64::max);
+    let cancellation = evidence.retained.modes.largest_cancellation();
     // Rounding of x_iᵀKx_j is that of its terms, √(c_i c_j) times the energies; added to it is the rest of
     // x_iᵀMx_j, a few ε, times √(λ_j / λ_i).
-    let arithmetic = NOISE_FACTOR * f64::EPSILON * cancellation.max(spread(evidence).sqrt());
+    let arithmetic = NOISE_FACTOR * f64::EPSILON * cancellation.max(evidence.retained.modes.spread().sqrt());
     // Rigid-body motion that K does not quite let pass is strain energy of the modes, and relative to it that much larger.
     let data = residual_limits(evidence).data * cancellation;
     let limits = Limits { engineering: 1e-10, arithmetic, data };

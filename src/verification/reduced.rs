@@ -133,8 +133,7 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>, of_digits: f64) -> Check {
 /// What rounding of K̂ and of the modes leaves of x_iᵀKx_j, in the scales of the coordinates, as in M-04: the row of a mode in the
 /// residual of another one is nothing else. Its terms are √(c_i c_j) times the energies.
 fn coupling_rounding(modes: &Modes) -> f64 {
-    let cancellation = modes.errors.iter().map(|error| error.cancellation).fold(0.0, f64::max);
-    (NOISE_FACTOR * f64::EPSILON * cancellation).min(HARMLESS_COUPLING)
+    (NOISE_FACTOR * f64::EPSILON * modes.largest_cancellation()).min(HARMLESS_COUPLING)
 }
 
 /// What the basis of a repeated eigenvalue leaves of it: its copies are told apart by the rounding of the full model only,

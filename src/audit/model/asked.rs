@@ -9,7 +9,9 @@ use faer::Mat;
 use super::full::Full;
 use super::interior::Interior;
 use crate::dense;
-use crate::eigen::{CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, ShiftInvert, Wanted, elastic_modes};
+use crate::eigen::{
+    CLUSTER_GAP, Factored, ModalProblem, ModeRequest, Modes, RESIDUAL_FLOOR, ShiftInvert, Wanted, elastic_modes,
+};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, WholeCount, whole_count};
 use crate::job::{Boundary, Eigensolver, ReductionJob};
@@ -26,8 +28,6 @@ const SEED: u64 = 0x0dd5_eed5;
 const PLACE: f64 = 0.29;
 /// Residual over θ at which the eigensolvers of the reduction take a pair.
 const RESIDUAL_OF_REDUCTION: f64 = 1e-13;
-/// Rounding of (K − σM)⁻¹ in units of ε times its largest eigenvalue, below which they take any.
-const FLOOR_OF_REDUCTION: f64 = 16.0;
 /// How much rounding may move an eigenvalue at the edge of a cluster or a band, in units of the gap that decides.
 const EDGE: f64 = 1e-2;
 
@@ -342,7 +342,7 @@ fn lacking(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, modes: &Modes)
         operator.solve_in_place(y.as_mut());
         for (j, energy) in columns.zip(dense::dots(r.as_ref(), y.as_ref())) {
             let distance = modes.lambda[j] - sigma;
-            let floor = FLOOR_OF_REDUCTION * f64::EPSILON * distance / (modes.lambda[0] - sigma);
+            let floor = RESIDUAL_FLOOR * f64::EPSILON * distance / (modes.lambda[0] - sigma);
             lacking.push((energy.max(0.0) / distance).sqrt() + RESIDUAL_OF_REDUCTION.max(floor));
         }
     }

@@ -6,7 +6,7 @@ use super::asked::AskedModes;
 use super::entries::FAR;
 use super::scaled::Scaled;
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::{ModeError, Modes, mean_is_away, n_taken_for_one};
+use crate::eigen::{ModeError, Modes, RESIDUAL_FLOOR, mean_is_away, taken_for_one};
 use crate::sparse::Precision;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
@@ -27,7 +27,7 @@ pub(super) fn frequencies(file: &Scaled, asked: &AskedModes, precision: Precisio
     }
     let bars = asked.modes.errors.iter().map(|error| error.relative_bar).fold(0.0, f64::max);
     // Roundings of the terms, those of a heavy mass among them, of which digits of K are no measure.
-    let of_terms = asked.modes.errors.iter().map(|error| f64::EPSILON * error.cancellation).fold(0.0, f64::max);
+    let of_terms = f64::EPSILON * asked.modes.largest_cancellation();
     let arithmetic = NOISE_FACTOR * of_terms.max(bars * share_of_arithmetic(precision));
     // A shape that is turned by an angle has a Rayleigh quotient that is off by the square.
     let turned = asked.angles.iter().map(|angle| NOISE_FACTOR * angle * angle).fold(0.0, f64::max);
@@ -54,10 +54,10 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
     /// Relative difference of a bar that fails in any case: a bar of zero is off by one.
     const NO_BAR: f64 = 0.5;
     let metadata = superelement.metadata();
+    let (of_products, of_data) = (turned_by_products(&asked.modes), shares_of_data(&asked.modes));
     // Shapes turn by rounding, and where two eigenvalues are nearly one they turn far, and their bars with them.
     let limits_of = |mode: usize| {
-        let turn = asked.angles[mode].max(asked.turns_inside[mode]).max(turned_by_products(&asked.modes, mode));
-        let turn = NOISE_FACTOR * turn;
+        let turn = NOISE_FACTOR * asked.angles[mode].max(asked.turns_inside[mode]).max(of_products[mode]);
         Limits { engineering: SAME_SHAPES, arithmetic: turn, data: 0.0 }.capped(LARGEST_TURN, 0.0)
     };
     let limits_of_none = Limits { engineering: SAME_SHAPES, ..Limits::default() };
@@ -70,10 +70,7 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
         // A bar is what roundings make of an energy over λ, and λ may be known to a few digits only: energies are compared.
         let same_lambda = stated / asked.lambda()[mode];
         let found = match error_bar_hz {
-            Some(bar) => {
-                let of_data = shares_of_data(&asked.modes, mode);
-                outside(2.0 * bar / frequency_hz * same_lambda, of_data, NOISE_FACTOR * of_residual)
-            }
+            Some(bar) => outside(2.0 * bar / frequency_hz * same_lambda, of_data[mode], NOISE_FACTOR * of_residual),
             None if error.relative_bar.is_finite() => f64::INFINITY,
             None => 0.0,
         };
@@ -93,25 +90,25 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
     }
 }
 
-/// What the share of the data may be, at least and at most. Of two frequencies a few roundings apart one eigensolver makes their mean, with a
-/// bar that reaches both, and another one does not.
-fn shares_of_data(modes: &Modes, mode: usize) -> [f64; 2] {
-    let error = &modes.errors[mode];
-    let n_alike = n_taken_for_one(&modes.lambda, &modes.errors, mode);
-    let away = mean_is_away(error.cancellation, n_alike);
-    // Without digits that are missing the bar of a mean is so many times that of one.
-    let least = error.data_bar / (2 * n_alike - 1) as f64;
-    [least.max(error.data_bar - away), error.data_bar + away]
+/// What the share of the data in each bar may be, at least and at most. Of two frequencies a few roundings apart one eigensolver makes their
+/// mean, with a bar that reaches both, and another one does not.
+fn shares_of_data(modes: &Modes) -> Vec<[f64; 2]> {
+    let of_mode = |(error, n_alike): (&ModeError, usize)| {
+        let away = mean_is_away(error.cancellation, n_alike);
+        // Without digits that are missing the bar of a mean is so many times that of one.
+        let least = error.data_bar / (2 * n_alike - 1) as f64;
+        [least.max(error.data_bar - away), error.data_bar + away]
+    };
+    modes.errors.iter().zip(taken_for_one(&modes.lambda, &modes.errors)).map(of_mode).collect()
 }
 
-/// What rounding of products makes of the terms of a mode, relative to them. An eigensolver takes a pair at 16 ε of the largest terms and of
-/// the largest θ. By so much of its length a shape is turned along a motion that has terms c_max and next to no mass, and terms of
+/// What rounding of products makes of the terms of each mode, relative to them. An eigensolver takes a pair at 16 ε of the largest terms and
+/// of the largest θ. By so much of its length a shape is turned along a motion that has terms c_max and next to no mass, and terms of
 /// c_j change by twice √(c_max / c_j) times that.
-fn turned_by_products(modes: &Modes, mode: usize) -> f64 {
-    let cancellation = |error: &ModeError| error.cancellation;
-    let largest = modes.errors.iter().map(cancellation).fold(0.0, f64::max);
-    let spread = modes.lambda.last().zip(modes.lambda.first()).map_or(1.0, |(last, first)| last / first);
-    32.0 * f64::EPSILON * largest * spread * (largest / cancellation(&modes.errors[mode])).sqrt()
+fn turned_by_products(modes: &Modes) -> Vec<f64> {
+    let largest = modes.largest_cancellation();
+    let turned = 2.0 * RESIDUAL_FLOOR * f64::EPSILON * largest * modes.spread();
+    modes.errors.iter().map(|error| turned * (largest / error.cancellation).sqrt()).collect()
 }
 
 /// How far a relative error bar lies outside of what it can be: the share of the data, and up to that of the residual more.

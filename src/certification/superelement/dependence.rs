@@ -4,8 +4,8 @@
 //! G    Ψᵀ diag(K) Ψ   singular where a column is made up of others
 //! H    K̂ + M̂         singular where a motion has neither stiffness nor mass
 //! ```
-//! Both, and in H both terms, are brought to unit diagonal first, where that is more than rounding. A mass that is singular by itself is none the worse, and neither is
-//! rigid-body motion.
+//! Both, and in H both terms, are brought to unit diagonal first, where that is more than rounding. A mass that is singular by itself is
+//! none the worse, and neither is rigid-body motion.
 
 use faer::{Mat, MatRef};
 

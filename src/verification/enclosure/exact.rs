@@ -27,5 +27,5 @@ pub(super) fn product(matrix: Leading<'_>, x: &[f64]) -> Product {
 
 /// xᵀ y.
 pub(super) fn dot(x: &[f64], y: &[Twofold]) -> Twofold {
-    x.iter().zip(y).fold(Twofold::default(), |sum, (x, y)| sum + *y * *x)
+    x.iter().zip(y).map(|(x, y)| *y * *x).sum()
 }
