@@ -3233,7 +3233,7 @@ pub enum Error {
     )]
     #[error(
         "the stiffness is not positive definite with {} – elimination stopped at {dof} – expected a positive pivot – \
-        the structure has a mechanism there or is unstable, or a penalty far above all else takes its digits; {STATE_DIGITS}",
+        the structure has a mechanism there or is unstable, or a penalty or a mass far above all else takes its digits; {STATE_DIGITS}",
         held_words(boundary)
     )]
     NotDefinite {
@@ -3326,8 +3326,8 @@ pub enum Error {
         (`run.certify = \"none\"`)"
     )]
     #[error(
-        "the Sturm count met a pivot without a sign – the shift lies on an eigenvalue, or a penalty far above all else \
-        takes the digits of the pivot – ask for one mode more or less; lower such a penalty, or do without the count, \
+        "the Sturm count met a pivot without a sign – the shift lies on an eigenvalue, or a penalty or a mass far \
+        above all else takes the digits of the pivot – ask for one mode more or less; lower what is so large, or do without the count, \
         run.certify = \"none\" (reduce --certify none)"
     )]
     SturmPivot,

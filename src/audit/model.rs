@@ -47,7 +47,7 @@ use crate::plan::Plan;
 use crate::reduction::Reduction;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::rubin::rank_or_attachment;
-use crate::verification::check::{Check, Limits};
+use crate::verification::check::{Check, Limits, Verdict};
 use crate::verification::limits::energy_noise;
 use crate::verification::{self, Evidence};
 
@@ -172,6 +172,8 @@ impl<'a> Reference<'a> {
         checks.extend(self.motions.checks(&file));
         checks.extend(self.expectations(superelement));
         self.matrices(superelement, &file, &mut audit)?;
+        let is_missed = audit.checks.iter().any(|check| check.verdict() == Verdict::Fail);
+        audit.notes.extend(self.partition.model.heavy.iter().filter(|_| is_missed).map(ToString::to_string));
         Ok(audit.sorted())
     }
 

@@ -9,6 +9,7 @@ mod bodies;
 mod definite;
 mod finding;
 mod fit;
+mod heavy_rows;
 mod mass_order;
 mod multipliers;
 mod scaling;
@@ -29,6 +30,7 @@ pub use bodies::{Bodies, node_of_row};
 use finding::PENALTY;
 pub use finding::{ASYMMETRY_WARN, Finding};
 pub use fit::{CoordinateFit, Misfit, RoundedCoordinates};
+pub use heavy_rows::HeavyRows;
 pub use scaling::Scaling;
 pub use site::{Frame, Site, recentred};
 pub use symmetry::{Asymmetry, make_symmetric};
@@ -86,6 +88,8 @@ pub struct ModelFacts {
     pub rows: FileRows,
     /// What was found and mended.
     pub findings: Vec<Finding>,
+    /// Rows with next to all of the mass, where there are some.
+    pub heavy: Option<HeavyRows>,
 }
 
 impl ModelFacts {
@@ -200,6 +204,7 @@ impl Model {
             weight: None,
             rows: self.rows.clone(),
             findings: self.findings.clone(),
+            heavy: self.heavy_rows(),
         }
     }
 }

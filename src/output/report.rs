@@ -291,6 +291,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     warnings.extend(soft_rotation::soft_rotation(results));
     warnings.extend(warnings::equal_weights(results));
     warnings.extend(warnings::penalties(results));
+    warnings.extend(warnings::heavy_rows(results));
     warnings.extend(warnings::data_precision(results));
     warnings.extend(warnings::mixed_precision(results));
     warnings.extend(rigid_body::expectation_unchecked(results));

@@ -125,11 +125,9 @@ pub(super) fn equal_weights(results: &Results<'_>) -> Option<Warning> {
 /// Stiff rows that take the digits, where a check is not passed and the model has not named them for their size alone: what costs digits
 /// that nothing misses needs no word.
 pub(super) fn penalties(results: &Results<'_>) -> Option<Warning> {
-    let is_missed = results.checks().iter().any(|check| matches!(check.verdict(), Verdict::Warn | Verdict::Fail));
-    let findings = &results.evidence.partition.model.findings;
-    let is_named = findings.iter().any(|finding| finding.warning() == Some("W-PENALTY"));
     // The search reads K once for every few modes.
-    let found = (is_missed && !is_named).then(|| penalties_of(&results.evidence, results.findings.first_elastic));
+    let is_unexplained = is_missed(results) && !is_named(results, "W-PENALTY");
+    let found = is_unexplained.then(|| penalties_of(&results.evidence, results.findings.first_elastic));
     let Penalties { n_rows, stiffest, ratio, noise, asked, noise_without } = found.flatten()?;
     Some(Warning {
         code: "W-PENALTY",
@@ -140,6 +138,23 @@ pub(super) fn penalties(results: &Results<'_>) -> Option<Warning> {
             counted(n_rows, "row is", "rows are")
         ),
     })
+}
+
+/// Rows with next to all of the mass, where a check is not passed and no patch has been named for the place of its mass.
+pub(super) fn heavy_rows(results: &Results<'_>) -> Option<Warning> {
+    let is_unexplained = is_missed(results) && !is_named(results, "W-MASS-FAR");
+    let heavy = results.evidence.partition.model.heavy.as_ref().filter(|_| is_unexplained)?;
+    Some(Warning { code: "W-MASS-HEAVY", message: heavy.to_string() })
+}
+
+/// Whether some check is not passed.
+fn is_missed(results: &Results<'_>) -> bool {
+    results.checks().iter().any(|check| matches!(check.verdict(), Verdict::Warn | Verdict::Fail))
+}
+
+/// Whether a finding of the model has this code.
+fn is_named(results: &Results<'_>, code: &str) -> bool {
+    results.evidence.partition.model.findings.iter().any(|finding| finding.warning() == Some(code))
 }
 
 /// Modes whose frequency the digits of the data leave less certain than a modal test; where the modes are those of the held

@@ -10,7 +10,7 @@ use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::{body, preserved};
 use super::table::{self, Align};
-use super::{CertifiedModel, Generator, json_text};
+use super::{CertifiedModel, Generator, json_text, words};
 use crate::certification::{ForeignSuperelement, FreeComparison, ReducedCertification};
 use crate::error::Result;
 use crate::number::{self, counted, quantity};
@@ -142,7 +142,7 @@ fn frequencies(page: &mut Page, compared: &BoundaryComparison) {
         let has_one = pair.reduced_hz.is_finite();
         [
             (at + 1).to_string(),
-            format!("{:.decimals$}", pair.full_hz),
+            words::full_frequency(pair, decimals),
             if has_one { format!("{:.decimals$}", pair.reduced_hz) } else { "–".to_owned() },
             if has_one { format!("{} %", quantity(100.0 * pair.relative_difference, 2)) } else { String::new() },
             if pair.in_band { String::new() } else { "outside of the band".to_owned() },

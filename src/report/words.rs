@@ -9,10 +9,10 @@ use super::{
 use crate::cache::{Kind, Tally};
 use crate::job::Eigensolver;
 pub(super) use crate::job::boundary_in_words as boundary;
-use crate::number::{self, counted};
+use crate::number::{self, counted, scientific};
 use crate::partition::{Fit, Frame, HeldSelection};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
-use crate::verification::preservation::{Accuracy, AccuracyMeasure, LimitSource, Preservation};
+use crate::verification::preservation::{Accuracy, AccuracyMeasure, FrequencyPair, LimitSource, Preservation};
 
 pub(super) fn eigensolver(eigensolver: Eigensolver) -> &'static str {
     match eigensolver {
@@ -307,6 +307,14 @@ pub fn unmet_check(check: &Check) -> String {
     format!("{} {}{at} – found {found} – expected at most {expected}", check.id, check.name)
 }
 
+/// A frequency of the full model with so many decimals, and its error bar where the last of them is not known.
+pub(super) fn full_frequency(pair: &FrequencyPair, decimals: usize) -> String {
+    let FrequencyPair { full_hz, full_error_bar_hz, .. } = pair;
+    let is_known = *full_error_bar_hz <= 0.5 * 0.1f64.powi(decimals as i32);
+    let bar = if is_known { String::new() } else { format!(" ± {}", scientific(*full_error_bar_hz, 1)) };
+    format!("{full_hz:.decimals$}{bar}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -326,5 +334,19 @@ mod tests {
         assert_eq!(unmet_check(&check(2.0, 0.0)), "M-06 modes are all there are – found 2 – expected at most 0");
         let shares = "M-06 modes are all there are – found 5.0e-01 – expected at most 0, failing above 1e-03";
         assert_eq!(unmet_check(&check(0.5, 1e-3)), shares);
+    }
+
+    #[test]
+    fn a_frequency_has_its_bar_where_that_is_more_than_its_last_decimal_tells() {
+        let pair = |full_error_bar_hz| FrequencyPair {
+            full_hz: 1234.56789,
+            full_error_bar_hz,
+            reduced_hz: 1235.0,
+            relative_difference: 3.5e-4,
+            in_band: true,
+        };
+        assert_eq!(full_frequency(&pair(4e-4), 3), "1234.568");
+        assert_eq!(full_frequency(&pair(0.02), 3), "1234.568 ± 2e-2");
+        assert_eq!(full_frequency(&pair(f64::NAN), 3), "1234.568 ± NaN");
     }
 }

@@ -36,6 +36,7 @@ fn orthogonality(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
         let reduced = rubin.columns.as_ref().subcols(columns.start, columns.len());
         let (whole, statics) = (evidence.basis.expanded(reduced), panel_of(evidence.basis, columns.clone()));
         let left = dense::gram(evidence.rigid.mass_orthonormal.as_ref(), whole.as_ref());
+        let terms = momenta_before(evidence, statics.as_ref());
         let [whole, statics] = [&whole, &statics].map(|motions| lengths(evidence, motions.as_ref()));
         for (j, column) in columns.enumerate() {
             let error = dense::norm(dense::column(left.as_ref(), j)) / whole[j];
@@ -44,7 +45,7 @@ fn orthogonality(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
             }
             // Columns of Ψ_D have unit length.
             let summed: f64 = dense::column(reduced, j)[n_b..].iter().map(|amplitude| amplitude.abs()).sum();
-            lost = lost.max((statics[j] + summed) / whole[j]);
+            lost = lost.max((statics[j] + summed + terms[j]) / whole[j]);
         }
     }
     // Both parts are known to rounding, and what they have in common cancels. Momenta along U are, and those along its orthonormal
@@ -60,6 +61,18 @@ fn orthogonality(evidence: &Evidence<'_>, rubin: &Rubin) -> Result<Check> {
         fail_above: limits.value().max(FAIL),
         worst: Some(format!("attachment mode {}", worst.1 + 1)),
     })
+}
+
+/// ‖|Q|ᵀ|M|(|x| + |Q||QᵀMx|)‖ of each column x: what its momenta along rigid-body motions are summed from, before these motions are taken
+/// out of it. Rotations about a heavy mass are no part of its momentum, but sums of terms of that size.
+fn momenta_before(evidence: &Evidence<'_>, x: MatRef<'_, f64>) -> Vec<f64> {
+    let along = dense::gram(evidence.rigid.mass_orthonormal.as_ref(), x);
+    let q = dense::absolute(evidence.rigid.orthonormal.as_ref());
+    let mut sizes = dense::absolute(x);
+    dense::add_product(sizes.as_mut(), 1.0, q.as_ref(), dense::absolute(along.as_ref()).as_ref());
+    let (_, terms) = product_and_terms(&evidence.partition.mass, sizes.as_ref());
+    let sums = dense::gram(q.as_ref(), terms.as_ref());
+    (0..sums.ncols()).map(|j| dense::norm(dense::column(sums.as_ref(), j))).collect()
 }
 
 /// The least singular value of the rigid-body motions that have mass, each of unit length in it.

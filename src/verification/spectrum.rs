@@ -58,6 +58,7 @@ impl Spectrum {
             zero_modes(evidence.partition)?;
         }
         let (mut free, shapes) = spectral.map_or((Vec::new(), Mat::zeros(k.nrows(), 0)), |s| s.lowest(n_looked_at));
+        let shapes = by_their_energy(&mut free, shapes.as_ref(), (k_held.as_ref(), m));
         let n_modes = evidence.retained.modes.count();
         sharpen(&mut free, (k_held.as_ref(), m), lambda, n_pencil + n_modes)?;
         let same_boundary = match evidence.retained.boundary {
@@ -138,6 +139,17 @@ impl Spectrum {
     pub(super) fn first_elastic(&self) -> Option<f64> {
         self.scale(self.n_soft)
     }
+}
+
+/// Computes the lowest eigenvalues anew from their shapes, as xᵀKx / xᵀMx, and puts both in order. As 1/θ − α they have the rounding of
+/// α and of the factor of M̂, which next to a heavy mass is more than nothing: the energy of a shape has that of its own terms.
+fn by_their_energy(free: &mut [f64], shapes: MatRef<'_, f64>, (k, m): (MatRef<'_, f64>, MatRef<'_, f64>)) -> Mat<f64> {
+    let [energies, masses] = [k, m].map(|a| dense::dots(shapes, dense::product(a, shapes).as_ref()));
+    let quotients: Vec<f64> = energies.iter().zip(masses).map(|(energy, mass)| energy / mass).collect();
+    let mut order: Vec<usize> = (0..quotients.len()).collect();
+    order.sort_by(|a, b| quotients[*a].total_cmp(&quotients[*b]));
+    free.iter_mut().zip(&order).for_each(|(value, j)| *value = quotients[*j]);
+    dense::columns(shapes, &order)
 }
 
 /// The first elastic eigenvalue of the full model under the boundary of the retained modes, soft motions left out as in the reduced one.

@@ -331,3 +331,40 @@ fn many_modes_of_a_component_without_interface() {
     place.reduce(&place.model_flags(), "--method craig-bampton --modes 129").expect(ExitCode::Done);
     passes(&place, "129 modes");
 }
+
+/// A mass far heavier than the part, at a corner of a patch whose node is in the middle. Zero modes of the stiffness, attachment modes and the
+/// few eigenvalues of an interface of rigid-body motions alone are known by sums over both, and are judged by what these keep.
+#[test]
+fn a_heavy_mass_at_the_corner_of_a_patch() {
+    let block = brick([4, 1, 1], [0.2, 0.03, 0.02], &Material::STEEL_SI);
+    for (coupling, method, mass) in
+        [("rigid", "guyan", 1e6), ("average", "rubin", 1e8), ("average", "herting", 1e8), ("average", "guyan", 1e8)]
+    {
+        let place = Place::with(&carrying(&block, &[1], mass));
+        let modes = if method == "guyan" { "" } else { "modes = { count = 6 }\n" };
+        let job = format!(
+            "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"nodes.csv\"\ndofs = \"dofs.txt\"\n\
+             [[interface]]\nname = \"a\"\nnodes = [1, 6, 11, 16]\ncoupling = \"{coupling}\"\n\
+             [reduction]\nmethod = \"{method}\"\n{modes}[write]\nsuperelement = \"x.supel\"\n"
+        );
+        place.write("job.toml", job.as_bytes());
+        let what = format!("{coupling}, {method}, {mass:e} kg");
+        let made = supel(&["reduce", &place.text("job.toml")]);
+        assert_eq!(made.code, ExitCode::Done, "{what}:\n{}{}", made.out, made.err);
+        let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
+        assert_eq!(ended.code, ExitCode::Done, "{what}:\n{}{}", ended.out, ended.err);
+    }
+}
+
+/// A check that sums over a mass and what it is ten million times heavier than does not pass says why, in the report and with the job.
+#[test]
+fn a_heavy_mass_is_named_where_a_check_fails() {
+    let block = brick([4, 1, 1], [0.2, 0.03, 0.02], &Material::STEEL_SI);
+    for (mass, is_named) in [(1e9, true), (1.0, false)] {
+        let place = Place::with(&carrying(&block, &[8], mass));
+        let rest = "--rigid-interface a=1,6,11,16 --method herting --modes 6 --allow-unverified";
+        let made = place.reduce(&place.model_flags(), rest);
+        assert_eq!(made.out.contains("W-MASS-HEAVY"), is_named, "{mass:e}:\n{}{}", made.out, made.err);
+        assert_eq!(made.out.contains("(node 8 u"), is_named, "{mass:e}:\n{}{}", made.out, made.err);
+    }
+}

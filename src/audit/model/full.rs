@@ -1,5 +1,7 @@
 //! The full model by a factor of K − σM on all its dofs: which motions are free, and the first elastic eigenvalue.
 
+use faer::Mat;
+
 use crate::eigen::{Shifted, shifted, zero};
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky};
@@ -16,6 +18,8 @@ pub(super) struct Full<'a> {
     pub(super) sigma: f64,
     /// Zero modes found by inverse iteration.
     pub(super) zero: RigidBodyModes,
+    /// Shapes of the first elastic modes, n × k of unit modal mass; those that were found with the zero modes.
+    pub(super) elastic: Mat<f64>,
     /// The first elastic eigenvalue.
     pub(super) first: f64,
     /// What roundings of K leave of an energy, relative to that: how far they turn motions towards each other.
@@ -31,7 +35,8 @@ impl<'a> Full<'a> {
         let problem = partition.free_problem().knowing_free(by_coordinates(given));
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
         let n_zero = confirmed(&found, given);
-        let shapes = found.lowest.shapes.as_ref().subcols(0, n_zero).to_owned();
+        let (shapes, elastic) = found.lowest.shapes.as_ref().split_at_col(n_zero);
+        let (shapes, elastic) = (shapes.to_owned(), elastic.to_owned());
         let first = found.lowest.lambda.get(n_zero).copied().or(found.lowest.next).unwrap_or(1.0);
         let looked_at = &found.lowest.errors[..found.lowest.count().min(n_zero + 1)];
         let noise = looked_at.iter().map(|error| error.zero_level / first).fold(0.0, f64::max);
@@ -43,7 +48,7 @@ impl<'a> Full<'a> {
             energy: RigidEnergy { angle: noise, ..RigidEnergy::default() },
             ..RigidBodyModes::none(partition.n_dofs())
         };
-        Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, first, noise })
+        Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, elastic, first, noise })
     }
 }
 

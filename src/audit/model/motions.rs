@@ -26,6 +26,8 @@ pub(super) struct KnownMotions {
     pub(super) n_zero: usize,
     /// Q_B of the zero modes, n_B × n_r.
     zero: Mat<f64>,
+    /// X_B of the first elastic modes of unit modal mass, n_B × k.
+    elastic: Mat<f64>,
     /// The unit motions, where the file's are those.
     unit: Option<UnitMotions>,
     meaning: Meaning,
@@ -35,6 +37,8 @@ pub(super) struct KnownMotions {
     pub(super) sight: Sight,
     /// Rounding of K relative to the first elastic eigenvalue: what a displacement may be off by.
     rounding: f64,
+    /// What rounding of products with M turns a zero mode towards an elastic one by: ε |q|ᵀ|M||q|, as far as (K − σM)⁻¹ lets it pass.
+    of_products: f64,
     /// Limits of what zero modes of K differ by from the motions of the coordinates: roundings turn them towards elastic ones.
     of_zero_modes: Limits,
 }
@@ -92,6 +96,7 @@ impl KnownMotions {
         Self {
             n_zero,
             zero: full.zero.orthonormal.as_ref().subrows(n_i, n_b).to_owned(),
+            elastic: full.elastic.as_ref().subrows(n_i, n_b).to_owned(),
             unit,
             meaning: match (given.count() == n_zero && given.are_unit_motions(partition), given.is_classical) {
                 (true, _) => Meaning::Unit,
@@ -101,6 +106,7 @@ impl KnownMotions {
             is_of_a_body: given.is_classical && is_of_a_body(given.rigid_body_mass(&partition.mass).as_ref()),
             sight: Sight::Whole,
             rounding,
+            of_products: NOISE_FACTOR * f64::EPSILON * mass_terms(full) * full.sigma.abs() / (full.first - full.sigma),
             of_zero_modes: match partition.has_few_digits() {
                 true => Limits { engineering: 1e-9, arithmetic: rounding, data: turn },
                 false => Limits { engineering: 1e-9, arithmetic: rounding.max(turn), data: 0.0 },
@@ -149,15 +155,20 @@ impl KnownMotions {
 
     /// Motions of the file from the zero modes, A with Û_B = Q_B A, n_r × n_r; and what is left over.
     pub(super) fn combination(&self, file: &Scaled) -> (Mat<f64>, f64) {
-        // Rows weighted by inertia make translations and rotations count alike.
-        let weight: Vec<f64> = (0..file.n_b).map(|i| file.m[(i, i)].max(0.0).sqrt()).collect();
-        let weighted = |a: MatRef<'_, f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| weight[i] * a[(i, j)]);
-        let (q, u) = (weighted(self.zero.as_ref()), weighted(file.u.as_ref().subrows(0, file.n_b)));
+        let [q, u] = [self.zero.as_ref(), file.u.as_ref().subrows(0, file.n_b)].map(|a| by_inertia(file, a));
         let combination = q.qr().solve_lstsq(&u);
         let mut left = u.clone();
         dense::add_product(left.as_mut(), -1.0, q.as_ref(), combination.as_ref());
         let ratio = |j: usize| dense::norm(dense::column(left.as_ref(), j)) / dense::norm(dense::column(u.as_ref(), j));
         (combination, dense::worst((0..u.ncols()).map(ratio)))
+    }
+
+    /// What a zero mode that is turned by a unit angle towards an elastic one is off by, seen from the interface: max ‖Q_B⁺X_B‖. Next to a
+    /// heavy mass a zero mode hardly moves, and an elastic one does.
+    fn swing(&self, file: &Scaled) -> f64 {
+        let [q, x] = [&self.zero, &self.elastic].map(|a| by_inertia(file, a.as_ref()));
+        let seen = q.qr().solve_lstsq(&x);
+        (0..seen.ncols()).map(|j| dense::norm(dense::column(seen.as_ref(), j))).fold(1.0, f64::max)
     }
 
     /// M-05: Û moves the interface as zero modes of the full model do, and as the coordinates say; M-16: and has their inertia.
@@ -180,9 +191,12 @@ impl KnownMotions {
         if !file.has_mass {
             return checks;
         }
-        // QᵀMQ = I, so that U = Q A has the inertia AᵀA.
         let inertia = dense::gram(combination.as_ref(), combination.as_ref());
         let (value, worst) = difference(&file.m_f, &inertia);
+        let swing = self.swing(file);
+        let arithmetic = limits.arithmetic.max(self.of_products) * swing;
+        let limits = Limits { arithmetic, data: limits.data * swing, ..limits };
+        let limits = limits.capped(LARGEST_TURN, LARGEST_TURN);
         checks.push(Check {
             id: "M-16",
             name: "rigid-body mass is that of the zero modes",
@@ -194,6 +208,18 @@ impl KnownMotions {
         });
         checks
     }
+}
+
+/// The largest |q|ᵀ|M||q| of the zero modes, which have unit mass.
+fn mass_terms(full: &Full<'_>) -> f64 {
+    let zero = full.zero.orthonormal.as_ref();
+    let (_, terms) = product_and_terms(&full.partition.mass, zero);
+    energies_of_terms(zero, terms.as_ref()).into_iter().fold(1.0, f64::max)
+}
+
+/// Rows of the interface weighted by inertia, so that translations and rotations count alike.
+fn by_inertia(file: &Scaled, a: MatRef<'_, f64>) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| file.m[(i, i)].max(0.0).sqrt() * a[(i, j)])
 }
 
 impl UnitMotions {

@@ -56,13 +56,15 @@ impl Compared<'_> {
     pub(super) fn frequencies(&self, [from, to]: [f64; 2]) -> Option<BoundaryComparison> {
         self.reduced.as_ref()?;
         let hertz = |lambda: f64| self.component.partition.scaling.hertz(lambda);
-        let pair = |(at, full): (usize, &f64)| {
+        let pair = |(at, (full, error)): (usize, (&f64, &ModeError))| {
             let full_hz = hertz(*full);
             let reduced_hz = self.partners[at].map_or(f64::INFINITY, |partner| hertz(self.elastic()[partner]));
             let in_band = (from..=to).contains(&full_hz);
-            FrequencyPair { full_hz, reduced_hz, relative_difference: reduced_hz / full_hz - 1.0, in_band }
+            let full_error_bar_hz = 0.5 * error.relative_bar * full_hz;
+            let relative_difference = reduced_hz / full_hz - 1.0;
+            FrequencyPair { full_hz, full_error_bar_hz, reduced_hz, relative_difference, in_band }
         };
-        let frequencies: Vec<FrequencyPair> = self.full.iter().enumerate().map(pair).collect();
+        let frequencies: Vec<FrequencyPair> = self.full.iter().zip(self.errors).enumerate().map(pair).collect();
         let inside = frequencies.iter().filter(|pair| pair.in_band);
         let worst_in_band = dense::worst(inside.map(|pair| pair.relative_difference.abs()));
         let count = self.certificate.map(|certificate| BoundaryCount {

@@ -136,8 +136,8 @@ fn pairs(page: &mut Markup, boundaries: &[BoundaryComparison]) {
             String::new()
         };
         let caption = format!(
-            "Elastic frequencies of the full model under each boundary and the relative difference of the reduced model: \
-             those of the band{beyond}. The JSON report has all that were computed."
+            "Elastic frequencies of the full model under each boundary, with error bars where these exceed the last decimal, and the relative \
+             difference of the reduced model: those of the band{beyond}. The JSON report has all that were computed."
         );
         let id = format!("table-pairs-{}", part + 1);
         page.table(&Table { id, caption, heads, rows: rows.collect() });
@@ -147,7 +147,7 @@ fn pairs(page: &mut Markup, boundaries: &[BoundaryComparison]) {
 fn pair_cells(pair: &FrequencyPair, decimals: usize) -> [String; 2] {
     let difference = scientific(pair.relative_difference, 2);
     let difference = if pair.in_band { difference } else { format!("({difference})") };
-    [format!("{:.decimals$}", pair.full_hz), difference]
+    [words::full_frequency(pair, decimals), difference]
 }
 
 fn statics(page: &mut Markup, statics: &[InterfaceStatics]) {

@@ -4,6 +4,7 @@ use super::outcome::{BoundaryComparison, FrequencyPair};
 use super::reduced::{Quotient, quotients};
 use super::reference::{ROUNDINGS, Reference};
 use crate::dense;
+use crate::eigen::ModeError;
 use crate::error::Result;
 use crate::verification::check::{Check, Limits};
 use crate::verification::evidence::{Evidence, data_noise};
@@ -22,18 +23,19 @@ impl Reference {
     }
 
     fn pairs(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> Vec<FrequencyPair> {
-        let pair = |(j, full): (usize, &f64)| {
+        let pair = |(j, (full, error)): (usize, (&f64, &ModeError))| {
             let full_hz = evidence.partition.scaling.hertz(*full);
             let reduced_hz =
                 reduced.get(j).map_or(f64::INFINITY, |quotient| evidence.partition.scaling.hertz(quotient.lambda));
             FrequencyPair {
                 full_hz,
+                full_error_bar_hz: 0.5 * error.relative_bar * full_hz,
                 reduced_hz,
                 relative_difference: reduced_hz / full_hz - 1.0,
                 in_band: (band_hz[0]..=band_hz[1]).contains(&full_hz),
             }
         };
-        self.lambda.iter().enumerate().map(pair).collect()
+        self.lambda.iter().zip(&self.errors).enumerate().map(pair).collect()
     }
 
     pub(super) fn comparison(&self, evidence: &Evidence<'_>, band_hz: [f64; 2]) -> Result<BoundaryComparison> {

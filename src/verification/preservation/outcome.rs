@@ -89,6 +89,8 @@ pub struct BoundaryCount {
 pub struct FrequencyPair {
     /// In the full model.
     pub full_hz: f64,
+    /// What it may be off by, as the error bar of a mode.
+    pub full_error_bar_hz: f64,
     /// In the reduced model.
     pub reduced_hz: f64,
     /// Reduced / full − 1.

@@ -136,6 +136,7 @@ fn boundary(name: &str, description: &str, scale: f64, power: f64) -> BoundaryCo
         let relative_difference = scale * (0.2 + noise(index)) * (full_hz / 1000.0).powf(power);
         FrequencyPair {
             full_hz,
+            full_error_bar_hz: 1e-12 * full_hz,
             reduced_hz: full_hz * (1.0 + relative_difference),
             relative_difference,
             in_band: full_hz <= 8_000.0,
