@@ -346,7 +346,7 @@ mod tests {
             in_band: true,
         };
         assert_eq!(full_frequency(&pair(4e-4), 3), "1234.568");
-        assert_eq!(full_frequency(&pair(0.02), 3), "1234.568 ± 2e-2");
+        assert_eq!(full_frequency(&pair(0.02), 3), "1234.568 ± 2e-02");
         assert_eq!(full_frequency(&pair(f64::NAN), 3), "1234.568 ± NaN");
     }
 }
