@@ -38,6 +38,7 @@ pub(super) fn cache(tally: &Tally) -> String {
         Kind::Factor => counted(*n, "factor", "factors"),
         Kind::Count => counted(*n, "count", "counts"),
         Kind::Modes => counted(*n, "set of modes", "sets of modes"),
+        Kind::Response => counted(*n, "frequency response", "frequency responses"),
     };
     let list = |found: &BTreeMap<Kind, usize>| match found.is_empty() {
         true => "nothing".to_owned(),
@@ -346,7 +347,7 @@ mod tests {
             in_band: true,
         };
         assert_eq!(full_frequency(&pair(4e-4), 3), "1234.568");
-        assert_eq!(full_frequency(&pair(0.02), 3), "1234.568 ± 2e-2");
+        assert_eq!(full_frequency(&pair(0.02), 3), "1234.568 ± 2e-02");
         assert_eq!(full_frequency(&pair(f64::NAN), 3), "1234.568 ± NaN");
     }
 }
