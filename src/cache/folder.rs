@@ -25,16 +25,19 @@ pub enum Kind {
     Count,
     /// Modes.
     Modes,
+    /// The frequency response of a full model.
+    Response,
 }
 
 impl Kind {
-    const ALL: [Self; 3] = [Self::Factor, Self::Count, Self::Modes];
+    const ALL: [Self; 4] = [Self::Factor, Self::Count, Self::Modes, Self::Response];
 
     fn name(self) -> &'static str {
         match self {
             Self::Factor => "factor",
             Self::Count => "count",
             Self::Modes => "modes",
+            Self::Response => "response",
         }
     }
 

@@ -11,9 +11,9 @@ use super::overwriting::{Named, OwnFiles};
 use super::rehearsal::{self, Rehearsed};
 use super::{memory, process};
 use crate::conversion::{Content, Shape};
-use crate::dofs::DofMap;
+use crate::dofs::{Dof, DofMap};
 use crate::error::{Error, Result};
-use crate::input::{Allowance, InputNote, ReadSingle};
+use crate::input::{Allowance, InputNote, ReadSingle, RowLabels};
 use crate::number::counted;
 use crate::report::{printable, value_text};
 
@@ -37,7 +37,7 @@ fn convert_matrix(command: &MatrixConversion, terminal: &mut Terminal<'_>) -> Re
     let mut read = read.map_err(|error| rehearsed.judge(error))?;
     let dofs = match (&command.dofs_output, &read.dofs) {
         (Some(_), None) => return Err(Error::RowsUnnamed { path: command.matrix.path() }),
-        (Some(path), Some(dofs)) => Some((path, table(dofs))),
+        (Some(path), Some(dofs)) => Some((path, table(dofs, &read.labels))),
         (None, _) => None,
     };
     let matrix = &read.input.matrix;
@@ -75,12 +75,12 @@ fn outputs(command: &MatrixConversion) -> Vec<Named> {
 }
 
 /// A dof map as `supel reduce` reads it.
-fn table(dofs: &DofMap) -> String {
-    let row = |dof: &Option<crate::dofs::Dof>| match dof {
+fn table(dofs: &DofMap, labels: &RowLabels) -> String {
+    let row = |(row, dof): (usize, &Option<Dof>)| match dof {
         Some(dof) => format!("{},{}\n", dof.node, dof.direction),
-        None => ",scalar\n".to_owned(),
+        None => labels.scalar_in_map(row).unwrap_or_else(|| ",scalar".to_owned()) + "\n",
     };
-    std::iter::once("node,dof\n".to_owned()).chain(dofs.iter().map(row)).collect()
+    std::iter::once("node,dof\n".to_owned()).chain(dofs.iter().enumerate().map(row)).collect()
 }
 
 fn text(command: &MatrixConversion, read: &ReadSingle, shape: Shape) -> String {

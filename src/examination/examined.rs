@@ -25,6 +25,7 @@ pub const N_MODES: usize = 8;
 pub struct Examination {
     findings: Vec<Finding>,
     grounded: Option<Grounded>,
+    apart: Option<Finding>,
     n_massless: Option<usize>,
     extents: Option<[f64; 3]>,
     units: Units,
@@ -80,6 +81,7 @@ impl Examination {
     pub fn look_at(&mut self, partition: &Partition, facts: &InputFacts, nodes: Option<&Nodes>) {
         self.facts = Some(facts.clone());
         self.grounded = Grounded::of(partition);
+        self.apart = apart(partition);
         let masses = diagonal(&partition.mass);
         self.n_massless = Some(masses.iter().filter(|mass| **mass == 0.0).count());
         self.extents = sizes::extents(partition);
@@ -92,7 +94,8 @@ impl Examination {
 
     /// Ends with what the lowest modes say of the model of a job, where no stage refused it.
     pub fn ended(self, job: Job, body: Option<ReportBody>) -> Examined {
-        let Self { mut findings, grounded, n_massless, extents, units, interfaces, ends, facts } = self;
+        let Self { mut findings, grounded, apart, n_massless, extents, units, interfaces, ends, facts } = self;
+        findings.extend(apart);
         let unit = units.only().map_or("", |guess| guess.stiffness);
         findings.extend(grounded.as_ref().and_then(|grounded| held(grounded, body.as_ref(), unit)));
         findings.extend(of_units(&units));
@@ -109,6 +112,31 @@ impl Examined {
     pub fn severity(&self) -> Option<Severity> {
         self.findings.iter().map(|finding| finding.severity).max()
     }
+}
+
+/// Rows with a stiffness of their own that are coupled with no other one, next to rows that are.
+fn apart(partition: &Partition) -> Option<Finding> {
+    let stiffness = partition.pencil().stiffness;
+    let is_apart = |row: &usize| {
+        let mut entries = stiffness.entries(*row).filter(|(_, value)| *value != 0.0).peekable();
+        entries.peek().is_some() && entries.all(|(other, _)| other == *row)
+    };
+    let rows: Vec<usize> = (0..stiffness.rows()).filter(is_apart).collect();
+    let first = rows.first().filter(|_| rows.len() < stiffness.rows())?;
+    Some(Finding {
+        severity: Severity::Remark,
+        code: None,
+        what: format!(
+            "{} coupled with no other one, the first is {}: a diagonal that stands for a condition, as some programs write it, or a spring \
+             to the ground",
+            counted(rows.len(), "row is", "rows are"),
+            partition.name_of(*first)
+        ),
+        remedy: "take rows of conditions out of both matrices: with mass in them their frequencies are no modes of the component"
+            .to_owned(),
+        lines: Vec::new(),
+        went_on: None,
+    })
 }
 
 /// What holds a component against translations.
@@ -138,11 +166,13 @@ fn held(grounded: &Grounded, body: Option<&ReportBody>, unit: &str) -> Option<Fi
         (
             Severity::Remark,
             format!(
-                "supports hold the component: {} next to dofs that are not in the stiffness, first {}",
-                counted(grounded.n_touched, "row is", "rows are"),
+                "supports hold the component: translations of the whole make forces at {}, as next to dofs that are not in the stiffness, \
+                 the largest at {}",
+                counted(grounded.n_touched, "row", "rows"),
                 first.dof
             ),
-            "leave the supports out of what is exported if the simulation is to move the component; hold dofs by [[fixed]] of the job then"
+            "leave the supports out of what is exported if the simulation is to move the component, and hold dofs by [[fixed]] of the job; \
+             if none are meant, entries of these rows are wrong"
                 .to_owned(),
         )
     };

@@ -97,10 +97,18 @@ fn lines_of(error: &Error) -> Vec<String> {
         ],
         Error::EmptyRows { .. } => &["drop_empty = true           # [model] of the job, or --drop-empty"],
         Error::DigitsTooFew { .. } => &["stiffness_digits = 17       # [model] of the job, if its numbers are exact"],
-        Error::RotationsHeld { .. } => {
-            &["held_rotations = [\"rz\"]     # [model] of the job, with the rotations that supports do hold"]
-        }
+        Error::RotationsHeld { rotations, .. } => return vec![held_rotations(rotations)],
         _ => &[],
     };
     lines.iter().map(|line| (*line).to_owned()).collect()
+}
+
+/// The line that says that supports hold these rotations.
+fn held_rotations(rotations: &str) -> String {
+    let axes: Vec<String> = ["x", "y", "z"]
+        .into_iter()
+        .filter(|axis| rotations.split(|c: char| !c.is_ascii_alphabetic()).any(|word| word == *axis))
+        .map(|axis| format!("\"r{axis}\""))
+        .collect();
+    format!("held_rotations = [{}]     # [model] of the job, if supports do hold them", axes.join(", "))
 }

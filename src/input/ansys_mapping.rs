@@ -6,7 +6,7 @@ use super::allowance::Allowance;
 use super::banner::excerpt;
 use super::dof_map::named;
 use super::file_start::FileStart;
-use super::format::{DirectionBase, DofMapFormat, Format, ReadDofs, Sureness};
+use super::format::{DofMapFormat, Format, ReadDofs, Sureness};
 use super::fortran::whole;
 use super::lines::Lines;
 use crate::dofs::Dof;
@@ -67,6 +67,6 @@ impl DofMapFormat for AnsysMapping {
         }
         let n_rows = rows.len();
         let dofs = rows.into_iter().take(n).map(|(_, dof)| dof).collect();
-        Ok(ReadDofs { dofs, n_rows, base: DirectionBase::One, local_directions: None })
+        Ok(ReadDofs::new(dofs, n_rows))
     }
 }

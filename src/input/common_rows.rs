@@ -23,6 +23,29 @@ impl RowLabels {
         Self(dofs.iter().map(|dof| dof.as_ref().and_then(label)).collect())
     }
 
+    /// These with labels of scalar dofs, each of which is that of one row.
+    ///
+    /// # Errors
+    /// [`Error::MatrixFormat`] for a label that two rows of the map at `path` have.
+    pub(super) fn with_scalars(mut self, path: &Path, scalars: &[(usize, RowLabel)]) -> Result<Self> {
+        let mut first_rows: HashMap<RowLabel, usize> = HashMap::new();
+        for (row, label) in scalars {
+            if let Some(first) = first_rows.insert(*label, *row) {
+                let place = format!("row {}", row + 1);
+                let found = format!("{label}, which is row {} too", first + 1);
+                let (path, expected) = (path.to_owned(), "every scalar dof once".into());
+                return Err(Error::MatrixFormat { path, format: "dof map", place, found, expected });
+            }
+            self.0[*row] = Some(*label);
+        }
+        Ok(self)
+    }
+
+    /// Label and direction of a row that belongs to no node, as a dof map has them.
+    pub fn scalar_in_map(&self, row: usize) -> Option<String> {
+        self.0.get(row).copied().flatten().filter(|label| label.dof().is_none()).map(RowLabel::in_map)
+    }
+
     /// Those that a matrix names.
     pub(super) fn of_labels(labels: &[RowLabel]) -> Self {
         Self(labels.iter().copied().map(Some).collect())
@@ -67,12 +90,12 @@ impl RowLabels {
     ///
     /// # Errors
     /// [`Error::RowsUnnamed`] where one names its rows, another does not, and no map is there.
-    pub(super) fn common(matrices: &[&ReadMatrix], map: Option<&DofMap>) -> Result<Self> {
+    pub(super) fn common(matrices: &[&ReadMatrix], map: Option<Self>) -> Result<Self> {
         if matrices.iter().all(|matrix| matrix.labels.is_none()) {
             return Ok(Self::default());
         }
         if let Some(map) = map {
-            return Ok(Self::of_map(map));
+            return Ok(map);
         }
         let mut labels: Vec<RowLabel> = Vec::new();
         for matrix in matrices {

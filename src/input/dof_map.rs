@@ -9,6 +9,7 @@ use super::allowance::Allowance;
 use super::banner::excerpt;
 use super::file_start::FileStart;
 use super::format::{DirectionBase, DofMapFormat, Format, ReadDofs, Sureness};
+use super::row_label::{RowLabel, scalar_component};
 use super::source::{Source, read_error};
 use super::table::{FirstLine, Row, Table, is_node_column, open_first_line};
 use crate::dofs::{Direction, Dof, DofMap, Nodes};
@@ -80,7 +81,7 @@ pub(super) fn check_nodes(dofs: &[Option<Dof>], path: &Path, nodes: &Nodes, node
 }
 
 fn read_lines(path: &Path, mut first: FirstLine, n: usize) -> Result<ReadDofs> {
-    let mut read = ReadDofs { dofs: Vec::new(), n_rows: 0, base: DirectionBase::One, local_directions: None };
+    let mut read = ReadDofs::new(Vec::new(), 0);
     read.take(parse_line(path, first.line, &first.text)?, n);
     let mut line = first.line;
     let mut bytes = Vec::new();
@@ -147,7 +148,8 @@ fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
         let node = node_of(&row, node_column, typed)?;
         has_zero |= typed == Typed::Number(0);
         for (unknown, base) in unknown.iter_mut().zip([DirectionBase::Zero, DirectionBase::One]) {
-            if let (None, Some(node), None) = (&unknown, node, typed.direction(base)) {
+            let is_scalar = matches!(typed, Typed::Scalar(_));
+            if let (None, false, Some(node), None) = (&unknown, is_scalar, node, typed.direction(base)) {
                 *unknown = Some((row.line, node, text.clone()));
             }
         }
@@ -169,14 +171,17 @@ fn read_table(path: &Path, first: FirstLine, n: usize) -> Result<ReadDofs> {
         return Err(direction_error(path, line, node, &text, expected));
     }
     let dofs = rows.iter().map(|(node, typed)| Some(Dof { node: (*node)?, direction: typed.direction(base)? }));
-    Ok(ReadDofs { dofs: dofs.collect(), n_rows, base, local_directions: None })
+    let scalars = rows.iter().enumerate().filter_map(|(row, (node, typed))| match typed {
+        Typed::Scalar(component) => Some((row, RowLabel { node: (*node)?, component: *component })),
+        Typed::Number(_) | Typed::Name(_) | Typed::Other => None,
+    });
+    Ok(ReadDofs { base, scalars: scalars.collect(), ..ReadDofs::new(dofs.collect(), n_rows) })
 }
 
-/// The node of a row, which a scalar dof must not have.
+/// The label of a row, which that of a scalar dof may lack.
 fn node_of(row: &Row<'_>, column: usize, typed: Typed) -> Result<Option<i64>> {
     match typed {
-        Typed::Scalar if row.text(column).is_empty() => Ok(None),
-        Typed::Scalar => Err(row.field_error(column, "nothing, as a scalar dof belongs to no node")),
+        Typed::Scalar(_) if row.text(column).is_empty() => Ok(None),
         _ => row.integer(column).map(Some),
     }
 }
@@ -186,18 +191,18 @@ fn node_of(row: &Row<'_>, column: usize, typed: Typed) -> Result<Option<i64>> {
 enum Typed {
     Number(u8),
     Name(Direction),
-    /// No direction of a node.
-    Scalar,
+    /// No direction of a node, with the number that the program gives it.
+    Scalar(u8),
     /// Neither a small number nor a name.
     Other,
 }
 
 impl Typed {
     fn of(text: &str) -> Self {
-        match text.parse() {
-            Ok(number) => Self::Number(number),
-            Err(_) if text == "scalar" => Self::Scalar,
-            Err(_) => named(text).map_or(Self::Other, Self::Name),
+        match (text.parse(), scalar_component(text)) {
+            (Ok(number), _) => Self::Number(number),
+            (Err(_), Some(component)) => Self::Scalar(component),
+            (Err(_), None) => named(text).map_or(Self::Other, Self::Name),
         }
     }
 
@@ -205,7 +210,7 @@ impl Typed {
         match self {
             Self::Number(number) => numbered(number, base),
             Self::Name(direction) => Some(direction),
-            Self::Scalar | Self::Other => None,
+            Self::Scalar(_) | Self::Other => None,
         }
     }
 }

@@ -183,6 +183,15 @@ pub(super) struct ReadDofs {
     pub(super) base: DirectionBase,
     /// The line that gives a node directions of its own, the first of them.
     pub(super) local_directions: Option<u64>,
+    /// Labels of rows that no node has, where the file has them.
+    pub(super) scalars: Vec<(usize, RowLabel)>,
+}
+
+impl ReadDofs {
+    /// A map whose directions count from one, without scalar dofs that have a label.
+    pub(super) fn new(dofs: DofMap, n_rows: usize) -> Self {
+        Self { dofs, n_rows, base: DirectionBase::One, local_directions: None, scalars: Vec::new() }
+    }
 }
 
 /// The number of the direction ux.

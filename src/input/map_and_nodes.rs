@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::allowance::Allowance;
 use super::calculix::rebuilt;
-use super::format::{DirectionBase, ReadNodes};
+use super::common_rows::RowLabels;
+use super::format::{DirectionBase, ReadDofs, ReadNodes};
 use super::{InputNote, dof_map, formats};
 use crate::dofs::{DofMap, Nodes};
 use crate::error::{Error, Result};
@@ -125,10 +126,11 @@ fn refuse_out_of_range(path: &Path, nodes: &Nodes) -> Result<()> {
 ///
 /// # Errors
 /// A file that cannot be read or whose content is wrong; [`Error::DofRepeated`].
-pub(super) fn dof_map_for_labels(path: &Path, allowance: &Allowance) -> Result<DofMap> {
-    let dofs = formats::of_dof_map(path)?.read(path, MAX_ORDER, allowance)?.dofs;
+pub(super) fn dof_map_for_labels(path: &Path, allowance: &Allowance) -> Result<(DofMap, RowLabels)> {
+    let ReadDofs { dofs, scalars, .. } = formats::of_dof_map(path)?.read(path, MAX_ORDER, allowance)?;
     dof_map::check_repeated(path, &dofs)?;
-    Ok(dofs)
+    let labels = RowLabels::of_map(&dofs).with_scalars(path, &scalars)?;
+    Ok((dofs, labels))
 }
 
 fn read_dofs(path: &Path, n: usize, (allowance, notes): (&Allowance, &mut Vec<InputNote>)) -> Result<DofMap> {

@@ -76,14 +76,12 @@ pub fn read(model: &ModelJob) -> Result<Input> {
 /// [`Error::Duplicates`] where the job refuses them.
 pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let mut notes = Vec::new();
-    let OwnMatrices { mut stiffness, mass, labels, map } = own_matrices(model, allowance, &mut notes)?;
+    let OwnMatrices { mut stiffness, mass, labels } = own_matrices(model, allowance, &mut notes)?;
     let n = stiffness.matrix.rows();
     let mut digests = BTreeMap::new();
-    let is_labelled = labels.is_some();
-    let labels = labels.unwrap_or_default();
-    let named = is_labelled.then(|| (model.stiffness.as_path(), labels.dof_map().unwrap_or_default()));
+    let named = labels.as_ref().map(|labels| (model.stiffness.as_path(), labels.dof_map().unwrap_or_default()));
     let MapAndNodes { mut dofs, nodes } = map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
-    let labels = dofs.as_ref().filter(|_| !is_labelled || map.is_some()).map_or(labels, RowLabels::of_map);
+    let labels = labels.unwrap_or_else(|| dofs.as_ref().map_or_else(RowLabels::default, RowLabels::of_map));
     let mut mass = mass.unwrap_or_else(|| unit_mass::of(&stiffness.matrix, dofs.as_deref()));
     let constraints = read_constraints(model, n, allowance, &mut digests)?;
     let forces = read_internal_forces(model, n, allowance, &mut digests)?;
@@ -260,10 +258,8 @@ struct OwnMatrices {
     stiffness: MatrixInput,
     /// None where the job does without.
     mass: Option<MatrixInput>,
-    /// The rows that they name; none where they name none.
+    /// The rows that they name, in the order of the map where there is one; none where they name none.
     labels: Option<RowLabels>,
-    /// The dof map that their rows were put in the order of.
-    map: Option<DofMap>,
 }
 
 /// K and M, of one size and without what the job refuses. Rows that they name are put in the order of the map, where there is one.
@@ -275,7 +271,7 @@ fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNo
     let is_labelled = matrices.iter().any(|matrix| matrix.labels.is_some());
     let map =
         model.dofs.as_deref().filter(|_| is_labelled).map(|path| dof_map_for_labels(path, allowance)).transpose()?;
-    let labels = RowLabels::common(&matrices, map.as_ref())?;
+    let labels = RowLabels::common(&matrices, map.map(|(_, labels)| labels))?;
     let stiffness = labels.placed(stiffness)?;
     let (mut stiffness, mut mass) = match mass {
         Some(mass) => {
@@ -289,7 +285,7 @@ fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNo
         notes.extend(model.symmetric.and_then(|triangle| take_triangle(matrix, triangle)));
         notes.extend(last_row_empty(matrix).filter(|_| !is_labelled));
     }
-    Ok(OwnMatrices { stiffness, mass, labels: is_labelled.then_some(labels), map })
+    Ok(OwnMatrices { stiffness, mass, labels: is_labelled.then_some(labels) })
 }
 
 fn read_constraints(

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::allowance::Allowance;
 use super::bulk_cards::Cards;
 use super::file_start::FileStart;
-use super::format::{DirectionBase, DofMapFormat, Format, ReadDofs, Sureness};
+use super::format::{DofMapFormat, Format, ReadDofs, Sureness};
 use super::fortran::whole;
 use super::row_label::RowLabel;
 use super::unsupported_format::begins_as_bulk;
@@ -40,8 +40,10 @@ impl DofMapFormat for NastranRows {
             });
         }
         let n_rows = labels.len();
-        let dofs = labels.into_iter().take(n).map(RowLabel::dof).collect();
-        Ok(ReadDofs { dofs, n_rows, base: DirectionBase::One, local_directions: local_directions(path)? })
+        let labels = &labels[..n.min(n_rows)];
+        let dofs = labels.iter().map(|label| label.dof()).collect();
+        let scalars = labels.iter().copied().enumerate().filter(|(_, label)| label.dof().is_none()).collect();
+        Ok(ReadDofs { scalars, local_directions: local_directions(path)?, ..ReadDofs::new(dofs, n_rows) })
     }
 }
 

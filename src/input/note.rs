@@ -195,7 +195,7 @@ impl fmt::Display for InputNote {
                 };
                 let positions = counted(*n_differing, "position", "positions");
                 let what = format!("what stands at {positions} {other} the diagonal differs from it and was left out");
-                write!(f, "{}: the {kept} triangle was taken for both as asked; {what}", file_name(path))
+                write!(f, "{}: the {kept} triangle was taken for both; {what}", file_name(path))
             }
             Self::EmptyRowsDropped { count, row, dof } => {
                 let dof = dof.map(|dof| format!(", {dof}")).unwrap_or_default();

@@ -17,6 +17,26 @@ impl RowLabel {
         let direction = Direction::ALL.get(usize::from(self.component.checked_sub(1)?)).copied()?;
         (self.node > 0).then_some(Dof { node: self.node, direction })
     }
+
+    /// Label and direction of a row that belongs to no node, as a dof map has them: `10,scalar`, and `14,scalar:8` of what a program
+    /// numbers 8 at a node.
+    pub(super) fn in_map(self) -> String {
+        match self.component {
+            0 => format!("{},{SCALAR}", self.node),
+            component => format!("{},{SCALAR}:{component}", self.node),
+        }
+    }
+}
+
+/// The direction of a scalar dof in a dof map.
+const SCALAR: &str = "scalar";
+
+/// What a program numbers a scalar dof by, from such a direction; none of any other direction.
+pub(super) fn scalar_component(direction: &str) -> Option<u8> {
+    match direction.strip_prefix(SCALAR)? {
+        "" => Some(0),
+        number => number.strip_prefix(':')?.parse().ok(),
+    }
 }
 
 impl std::fmt::Display for RowLabel {

@@ -34,6 +34,8 @@ pub struct ReadSingle {
     pub name: Option<String>,
     /// What each row is, where the matrix or a map says so.
     pub dofs: Option<DofMap>,
+    /// The same as the matrix or the map names it, scalar dofs with their labels.
+    pub labels: RowLabels,
     /// What reading needed beyond copying.
     pub notes: Vec<InputNote>,
 }
@@ -63,8 +65,9 @@ impl SingleMatrix {
         let layout = formats::of_matrix(&source)?.layout();
         let read = read_matrix(&source)?;
         let map = self.dofs.as_deref().map(|path| dof_map_for_labels(path, allowance)).transpose()?;
-        let labels = match (&read.labels, &map) {
-            (_, Some(map)) => RowLabels::of_map(map),
+        let (map, of_map) = map.unzip();
+        let labels = match (&read.labels, of_map) {
+            (_, Some(labels)) => labels,
             (Some(labels), None) => RowLabels::of_labels(labels),
             (None, None) => RowLabels::default(),
         };
@@ -75,6 +78,6 @@ impl SingleMatrix {
             dofs = superelement_file::dof_map(&source.file, allowance)?;
         }
         let dofs = dofs.filter(|dofs| dofs.len() == input.matrix.rows());
-        Ok(ReadSingle { input, layout, name: source.member, dofs, notes })
+        Ok(ReadSingle { input, layout, name: source.member, dofs, labels, notes })
     }
 }

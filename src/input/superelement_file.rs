@@ -15,8 +15,7 @@ use super::condensed_digits::digits;
 use super::digits::Digits;
 use super::file_start::FileStart;
 use super::format::{
-    DirectionBase, DofMapFormat, Format, MatrixFormat, MatrixSource, NodeFormat, ReadDofs, ReadMatrix, ReadNodes,
-    Sureness,
+    DofMapFormat, Format, MatrixFormat, MatrixSource, NodeFormat, ReadDofs, ReadMatrix, ReadNodes, Sureness,
 };
 use super::member::split_member;
 use super::named::chosen;
@@ -116,7 +115,7 @@ impl DofMapFormat for SuperelementFile {
         let mut dofs = labelled(&superelement);
         let n_rows = dofs.len();
         dofs.truncate(n);
-        Ok(ReadDofs { dofs, n_rows, base: DirectionBase::One, local_directions: None })
+        Ok(ReadDofs::new(dofs, n_rows))
     }
 }
 

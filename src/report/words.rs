@@ -38,6 +38,7 @@ pub(super) fn cache(tally: &Tally) -> String {
         Kind::Factor => counted(*n, "factor", "factors"),
         Kind::Count => counted(*n, "count", "counts"),
         Kind::Modes => counted(*n, "set of modes", "sets of modes"),
+        Kind::Response => counted(*n, "frequency response", "frequency responses"),
     };
     let list = |found: &BTreeMap<Kind, usize>| match found.is_empty() {
         true => "nothing".to_owned(),

@@ -151,6 +151,26 @@ fn supports_that_took_rows_out() {
     assert!(text.contains("none free: supports hold it"), "{text}");
 }
 
+/// Conditions as some programs write them: a row and a column of zeros and a diagonal. They fill the lowest frequencies, with coordinates and
+/// without.
+#[test]
+fn rows_of_conditions_are_told() {
+    let mut model = steel_brick();
+    let is_of_condition = |row: u32| row < 27;
+    model.stiffness.retain(|(i, j, _)| i == j || !is_of_condition(*i) && !is_of_condition(*j));
+    model.stiffness.iter_mut().filter(|(i, ..)| is_of_condition(*i)).for_each(|(.., value)| *value = 1.0);
+    let place = Place::with(&model);
+    for flags in [ALL, ""] {
+        let found = examined(&place, flags, ExitCode::Done);
+        let all = findings(&found);
+        let (_, told) =
+            all.iter().find(|(_, text)| text.contains("27 rows are coupled with no other one")).expect("told");
+        assert!(told.contains("take rows of conditions out"), "{told}");
+    }
+    let whole = examined(&Place::with(&steel_brick()), ALL, ExitCode::Done);
+    assert!(findings(&whole).iter().all(|(_, text)| !text.contains("coupled with no other one")), "{whole}");
+}
+
 /// What is held by a flag is meant.
 #[test]
 fn dofs_held_by_a_flag_are_no_finding() {

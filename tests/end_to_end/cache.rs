@@ -161,6 +161,37 @@ fn what_is_known_of_equal_numbers_is_part_of_the_key() {
     assert_eq!((&of_cache["taken"]["factor"], &of_cache["taken"]["modes"]), (&json!(1), &Value::Null));
 }
 
+/// The response of the full model serves again where outputs change, and not where damping or the band do.
+#[test]
+fn a_response_is_that_of_its_damping_and_band() {
+    let place = Place::with_brick();
+    let job = |band: &str, damping: &str, rest: &str| {
+        let text = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+             interface = [{{ name = \"root\", nodes = [1, 6, 11, 16], coupling = \"rigid\" }}]\n\
+             reduction = {{ method = \"herting\", modes = {{ count = 4 }} }}\n\
+             scene = {{ band_hz = [0, {band}], damping = {{ ratio = {damping} }} }}\n\
+             write = {{ superelement = \"x.supel\"{rest} }}\n"
+        );
+        place.write("job.toml", text.as_bytes());
+    };
+    job("3000", "0.01", "");
+    let (_, of_first) = cached_job(&place);
+    assert_eq!(of_first["kept"]["response"], 1, "{of_first}");
+    for (band, damping, rest, taken) in [
+        ("3000", "0.01", ", recovery = { nodes = [23] }", json!(1)),
+        ("3000", "0.02", "", Value::Null),
+        ("2900", "0.01", "", Value::Null),
+    ] {
+        job(band, damping, rest);
+        let (plain, _) = reduced_job(&place);
+        let (found, of_cache) = cached_job(&place);
+        let what = format!("{band} Hz, {damping}{rest}");
+        assert_same(&found, &plain, &what);
+        assert_eq!(of_cache["taken"]["response"], taken, "{what}: {of_cache}");
+    }
+}
+
 /// A job that looks for its number of modes searches several times; what it finds again is its own.
 #[test]
 fn a_job_that_looks_for_its_modes_takes_nothing_from_itself() {
@@ -218,7 +249,7 @@ fn damage_is_noticed_said_and_mended() {
     let place = Place::with_brick();
     let (plain, of_cold, _) = cached(&place, &words);
     let all = entries(&place);
-    let n_kept = ["factor", "count", "modes"].map(|kind| of_cold["kept"][kind].as_u64().expect("kept"));
+    let n_kept = ["factor", "count", "modes", "response"].map(|kind| of_cold["kept"][kind].as_u64().expect("kept"));
     assert_eq!(n_kept.iter().sum::<u64>(), all.len() as u64);
     type Harm<'a> = &'a dyn Fn(&mut Vec<u8>);
     let harms: [Harm<'_>; 4] = [

@@ -5,6 +5,7 @@ mod as_model;
 mod command;
 mod matrix_market;
 mod op4;
+mod scalar_points;
 
 use supel::cli::ExitCode;
 use supel_runtime::{Matrix, Superelement};

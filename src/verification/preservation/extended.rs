@@ -18,6 +18,7 @@ use faer::{Mat, c64};
 
 use super::super::evidence::Evidence;
 use super::shift::shift;
+use crate::cache::{Reader, Writer};
 use crate::dense;
 use crate::eigen::{Equilibrated, Spectral, complex_shift, mass_qr};
 use crate::error::Result;
@@ -312,6 +313,24 @@ impl Response {
         let z = complex_shift(evidence.partition.scaling.eigenvalue(frequency_hz), eta);
         let parts = spectral.block(z, evidence.partition.n_interface());
         Self { parts, factor: c64::new(1.0, 0.0) / c64::new(1.0, eta) }
+    }
+
+    /// Writes it into an entry of a cache.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub(super) fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        let Self { parts: [re, im], factor } = self;
+        to.columns(re.as_ref())?;
+        to.columns(im.as_ref())?;
+        to.array(&[factor.re, factor.im])
+    }
+
+    /// Reads it; none where the arrays are not those of a response.
+    pub(super) fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let parts = [from.columns()?, from.columns()?];
+        let [re, im] = from.array()?[..] else { return None };
+        Some(Self { parts, factor: c64::new(re, im) })
     }
 
     /// n_B.

@@ -12,10 +12,13 @@ use super::pair_error::{PairError, magnitude, worst_pair};
 use super::samples;
 use super::scan::Scan;
 use super::shift::shift;
+use crate::cache::{Key, Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::eigen::Spectral;
 use crate::error::Result;
+use crate::factor::Storage;
 use crate::number::quantity;
+use crate::reduction::panel_of;
 
 /// How often the band is scanned: samples that were added may have taught the full model something.
 const PASSES: usize = 3;
@@ -27,6 +30,52 @@ pub(super) struct FullResponse {
     samples_hz: Vec<f64>,
     answers: Vec<Response>,
     eta: f64,
+}
+
+/// The response of the full model and what the comparison with it found.
+struct Measured {
+    full: FullResponse,
+    /// The worst pair, and the sample it is worst at.
+    worst: PairError,
+    at: usize,
+    /// The largest relative residual of the full response.
+    residual: f64,
+    /// Of the last scan.
+    step: f64,
+    peak_shift: f64,
+    /// Bound on the relative error of the full response at its worst sample, and that sample.
+    uncertainty: (f64, f64),
+}
+
+impl Recorded for Measured {
+    const KIND: Kind = Kind::Response;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        let Self { full, worst, at, residual, step, peak_shift, uncertainty } = self;
+        to.array(&full.samples_hz)?;
+        for answer in &full.answers {
+            answer.write(to)?;
+        }
+        to.counts(&[worst.pair.0, worst.pair.1, *at])?;
+        to.array(&[worst.decibel, *residual, *step, *peak_shift, uncertainty.0, uncertainty.1, full.eta])
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let samples_hz: Vec<f64> = from.array()?;
+        let answers = samples_hz.iter().map(|_| Response::read(from)).collect::<Option<Vec<_>>>()?;
+        let [row, column, at] = from.counts()?[..] else { return None };
+        let [decibel, residual, step, peak_shift, bound, bound_at, eta] = from.array()?[..] else { return None };
+        let (worst, uncertainty) = (PairError { pair: (row, column), decibel }, (bound, bound_at));
+        (at < samples_hz.len()).then_some(Self {
+            full: FullResponse { samples_hz, answers, eta },
+            worst,
+            at,
+            residual,
+            step,
+            peak_shift,
+            uncertainty,
+        })
+    }
 }
 
 /// The answers of the full model, for further reduced models to be compared with.
@@ -57,46 +106,98 @@ pub(super) fn compared<'a>(
 ) -> Result<Compared<'a>> {
     let reduction = evidence.reduction;
     let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), shift(evidence)?)?;
-    let mut extended = Extended::new(evidence, evidence.factor, eta)?;
-    let mut samples_hz = samples::first(evidence, &reduced, band_hz);
-    if loaded.is_some() {
-        samples_hz = samples::with_resonances(evidence, &reduced, &samples_hz);
+    let task = Task { evidence, reduced: &reduced, band_hz, eta };
+    let (measured, loads) = match loaded {
+        // Internal loads are those of the space that the response was found in.
+        Some(own) => {
+            let (measured, extended) = task.measured(&samples::with_resonances)?;
+            let loads = FullLoads::new(own, extended, &measured.full.samples_hz, eta)?;
+            (measured, Some(loads))
+        }
+        None => {
+            let cache = evidence.partition.cache().filter(|_| evidence.factor.storage() == Storage::Double);
+            let make = || task.measured(&|_, _, samples| samples.to_vec()).map(|(measured, _)| measured);
+            (recalled(cache, || task.key(), make)?, None)
+        }
+    };
+    let report = task.report(&measured);
+    let Measured { full, uncertainty, .. } = measured;
+    Ok(Compared { report, full: Full { response: full, loads }, uncertainty })
+}
+
+/// What is compared.
+struct Task<'t> {
+    evidence: &'t Evidence<'t>,
+    reduced: &'t Spectral,
+    band_hz: [f64; 2],
+    eta: f64,
+}
+
+impl<'t> Task<'t> {
+    /// The response of the full model at samples where the reduced one errs most, with the space that it was found in. `first` are the
+    /// samples it starts from, made of those of [`samples::first`].
+    ///
+    /// # Errors
+    /// A pencil that is not definite.
+    fn measured(
+        &self,
+        first: &dyn Fn(&Evidence<'_>, &Spectral, &[f64]) -> Vec<f64>,
+    ) -> Result<(Measured, Extended<'t>)> {
+        let Self { evidence, reduced, band_hz, eta } = *self;
+        let mut extended = Extended::new(evidence, evidence.factor, eta)?;
+        let mut samples_hz = first(evidence, reduced, &samples::first(evidence, reduced, band_hz));
+        let mut residuals = extended.settle(&samples_hz)?;
+        let mut full = FullResponse::new(&extended, &samples_hz, eta);
+        let (mut worst, mut at) = full.worst(evidence, reduced);
+        let mut step = 0.0;
+        for _ in 0..PASSES {
+            let scan = Scan { evidence, full: &extended.spectral, reduced, eta };
+            let found = scan.peaks([samples_hz[0], samples_hz[samples_hz.len() - 1]]);
+            step = found.step;
+            let (known, driven) = ((&samples_hz[..], &found.peaks_hz[..]), [worst.pair.0, worst.pair.1]);
+            samples_hz = samples::with_peaks_and_zeros(evidence, &extended.spectral, known, driven)?;
+            residuals = extended.settle(&samples_hz)?;
+            full = FullResponse::new(&extended, &samples_hz, eta);
+            (worst, at) = full.worst(evidence, reduced);
+            if !dense::worse(found.largest_db, (1.0 + SETTLED) * worst.decibel) {
+                break;
+            }
+        }
+        let residual = residuals.iter().fold(0.0, |a, b| if dense::worse(*b, a) { *b } else { a });
+        let least_known =
+            (0..residuals.len()).fold(0, |a, b| if dense::worse(residuals[b], residuals[a]) { b } else { a });
+        let peak_shift = peak_shift(evidence, &extended.spectral, reduced, band_hz);
+        let uncertainty = (full.uncertainty(&extended, least_known), full.samples_hz[least_known]);
+        Ok((Measured { full, worst, at, residual, step, peak_shift, uncertainty }, extended))
     }
-    let mut residuals = extended.settle(&samples_hz)?;
-    let mut full = FullResponse::new(&extended, &samples_hz, eta);
-    let (mut worst, mut at) = full.worst(evidence, &reduced);
-    let mut step = 0.0;
-    for _ in 0..PASSES {
-        let scan = Scan { evidence, full: &extended.spectral, reduced: &reduced, eta };
-        let found = scan.peaks([samples_hz[0], samples_hz[samples_hz.len() - 1]]);
-        step = found.step;
-        let (known, driven) = ((&samples_hz[..], &found.peaks_hz[..]), [worst.pair.0, worst.pair.1]);
-        samples_hz = samples::with_peaks_and_zeros(evidence, &extended.spectral, known, driven)?;
-        residuals = extended.settle(&samples_hz)?;
-        full = FullResponse::new(&extended, &samples_hz, eta);
-        (worst, at) = full.worst(evidence, &reduced);
-        if !dense::worse(found.largest_db, (1.0 + SETTLED) * worst.decibel) {
-            break;
+
+    /// The key of all that [`Task::measured`] takes, from the samples of the reduced model alone.
+    fn key(&self) -> Key {
+        let Self { evidence, band_hz, eta, .. } = self;
+        let Evidence { partition, reduction, retained, basis, .. } = evidence;
+        let columns = panel_of(basis, 0..basis.n_reduced());
+        let key = evidence.constraint.key(evidence.rigid.key(partition.key("frequency response")));
+        let key = key.columns(columns.as_ref()).columns(reduction.stiffness.as_ref()).columns(reduction.mass.as_ref());
+        let key = key.numbers(&retained.modes.lambda).shown(&reduction.mass_rank()).shown(&partition.scaling);
+        key.numbers(&[rotation_length(partition)]).numbers(band_hz).numbers(&[*eta])
+    }
+
+    fn report(&self, measured: &Measured) -> ResponseComparison {
+        let (evidence, Measured { full, worst, at, .. }) = (self.evidence, measured);
+        let name = |dof: usize| evidence.partition.name_of(evidence.partition.n_internal + dof);
+        ResponseComparison {
+            boundary: "free".to_owned(),
+            damping: self.eta,
+            rotation_length: rotation_length(evidence.partition),
+            residual: measured.residual,
+            worst_pair: [name(worst.pair.1), name(worst.pair.0)],
+            worst_db: worst.decibel,
+            worst_at_hz: full.samples_hz[*at],
+            peak_shift: measured.peak_shift,
+            scan_step: measured.step,
+            samples: full.shown(evidence, self.reduced, worst.pair),
         }
     }
-    let residual = residuals.iter().fold(0.0, |a, b| if dense::worse(*b, a) { *b } else { a });
-    let least_known = (0..residuals.len()).fold(0, |a, b| if dense::worse(residuals[b], residuals[a]) { b } else { a });
-    let name = |dof: usize| evidence.partition.name_of(evidence.partition.n_internal + dof);
-    let report = ResponseComparison {
-        boundary: "free".to_owned(),
-        damping: eta,
-        rotation_length: rotation_length(evidence.partition),
-        residual,
-        worst_pair: [name(worst.pair.1), name(worst.pair.0)],
-        worst_db: worst.decibel,
-        worst_at_hz: full.samples_hz[at],
-        peak_shift: peak_shift(evidence, &extended.spectral, &reduced, band_hz),
-        scan_step: step,
-        samples: full.shown(evidence, &reduced, worst.pair),
-    };
-    let uncertainty = (full.uncertainty(&extended, least_known), full.samples_hz[least_known]);
-    let loads = loaded.map(|own| FullLoads::new(own, extended, &full.samples_hz, eta)).transpose()?;
-    Ok(Compared { report, uncertainty, full: Full { response: full, loads } })
 }
 
 impl FullResponse {
