@@ -86,6 +86,11 @@ pub(super) fn of_a_body(content: &Content<'_>) -> Option<Check> {
     mass_of_unit_motions(content).map(|m_f| verification::of_a_body(m_f.as_ref(), 0.0))
 }
 
+/// M-16: the inertia of what Û moves is one that a body can have.
+pub(super) fn of_inertia(content: &Content<'_>) -> Option<Check> {
+    verification::of_inertia(mass_of_unit_motions(content)?.as_ref(), 0.0)
+}
+
 /// The radius of gyration: the length that a shift of the centre is compared with.
 fn gyration(properties: &MassProperties) -> f64 {
     let inertia = properties.inertia;

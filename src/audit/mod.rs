@@ -154,6 +154,7 @@ fn of_pencil(content: &Content<'_>) -> Result<Vec<Check>> {
     checks.extend(named_modes::residual(content));
     checks.extend(mass::rigid_body_mass(content));
     checks.extend(mass::of_a_body(content));
+    checks.extend(mass::of_inertia(content));
     checks.extend(mass::stated(content));
     checks.extend(mass::expected(content));
     checks.extend(mass::gravity(content));

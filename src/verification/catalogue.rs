@@ -326,8 +326,9 @@ pub const CATALOGUE: &[Entry] = &[
         Proof::Measured,
         Recorded::WithMass([1, 0]),
         "Mass, centre of mass and inertia of the reduced model are those of the full one, and those of a body: the same mass \
-         in every direction. Where the job names the expected ones, they are compared as well.",
-        "Reduced against full: see M-11. Against the job: units, a missing part, density, or coordinates in other units.",
+         in every direction, and an inertia that M has the digits for. Where the job names the expected ones, they are compared as well.",
+        "Reduced against full: see M-11. Against the job: units, a missing part, density, or coordinates in other units. An inertia that is not \
+         known: write M with all digits, or the part near the origin of its coordinates.",
     ),
     line(
         "M-17",

@@ -75,7 +75,9 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.push(mass::preserved(evidence));
     if evidence.rigid.is_classical {
         let m_f = evidence.reduction.rigid_body_mass.as_ref();
-        checks.push(mass::of_a_body(m_f, evidence.partition.precision.mass.share));
+        let precision = evidence.partition.precision.mass.share;
+        checks.push(mass::of_a_body(m_f, precision));
+        checks.extend(mass::of_inertia(m_f, precision));
     }
     checks.extend(mass::of_weighed_body(evidence.partition));
     checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));

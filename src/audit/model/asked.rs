@@ -95,6 +95,11 @@ impl AskedModes {
         let mut found = Self::of(problem, operator, job, full.partition)?;
         // Motions that K does not quite let pass are not those of the next operator: what they cost it is what tells both apart.
         let energy = rigid.energy.largest_quotient / full.first;
+        // Deflated, the operators differ by no more than what those motions pull the elastic ones by, which is of second order.
+        let energy = match passing.filter(|_| full.partition.has_few_digits()) {
+            Some(passing) => energy.min(pull(problem, operator, passing)).max(RESIDUAL_OF_REDUCTION),
+            None => energy,
+        };
         for group in &found.groups {
             let gap = gap_of(&found.modes, operator.shift(), group);
             let turn = energy / gap;
@@ -266,6 +271,18 @@ fn other_than(eigensolver: Eigensolver) -> Eigensolver {
         Eigensolver::Lanczos if cfg!(feature = "arpack") => Eigensolver::Arpack,
         Eigensolver::Lanczos | Eigensolver::Arpack => Eigensolver::Lanczos,
     }
+}
+
+/// Σ fᵀ(K − σM)⁻¹f / |σ| of the forces f = Kq − (qᵀKq) Mq that K makes of motions q that it should let pass.
+///
+/// (K − σM)⁻¹ without them is the inverse of K − σM without them but for c cᵀ/|σ|, c their coupling with all others: so much of θ,
+/// relatively, is another operator's.
+fn pull(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, rigid: &RigidBodyModes) -> f64 {
+    let motions = rigid.orthonormal.as_ref();
+    let mut forces = product(problem.stiffness, motions);
+    let energies = dense::gram(motions, forces.as_ref());
+    dense::add_product(forces.as_mut(), -1.0, rigid.mass_orthonormal.as_ref(), energies.as_ref());
+    operator.compliances(forces.as_ref()).into_iter().sum::<f64>().max(0.0) / operator.shift().abs()
 }
 
 /// Runs of modes that are one cluster. Their shapes turn under rounding, and are compared as one space; what that may hide in K̂_ηη
