@@ -74,17 +74,36 @@ def write_mtx(path, megabytes):
 
 
 def write_op4(path, megabytes):
-    """A banded matrix with both triangles as sparse columns of OUTPUT4 in text, by pyYeti."""
-    import numpy as np
-    import scipy.sparse as sp
-    from pyyeti.nastran import op4
+    """A banded matrix with both triangles as sparse columns of OUTPUT4 in text.
 
-    per_column = 81
-    n = megabytes * 1_000_000 // (per_column * 24)
+    The bytes are those that pyYeti writes of the matrix with `binary=False, sparse="bigmat", digits=16`. pyYeti takes a time that grows with
+    the square of the order.
+    """
+    import numpy as np
+
+    per_column, per_line = 81, 3
+    n, half = megabytes * 1_000_000 // (per_column * 24), per_column // 2
     rng = np.random.default_rng(7)
-    half = sp.diags([rng.standard_normal(n - k) for k in range(per_column // 2 + 1)], range(per_column // 2 + 1))
-    matrix = (half + sp.triu(half, 1).T).tocsc()
-    op4.write(str(path), {"KAA": matrix}, binary=False, sparse="bigmat", digits=16)
+    # Column c of the matrix is row c of the band, from half an element above the diagonal to as many below it.
+    band = np.zeros((n, per_column))
+    for k in range(half + 1):
+        diagonal = rng.standard_normal(n - k)
+        band[: n - k, half + k] = diagonal
+        band[k:, half - k] = diagonal
+
+    def lines(count):
+        return "".join("%23.16E" * min(per_line, count - at) + "\n" for at in range(0, count, per_line))
+
+    whole = lines(per_column)
+    with open(path, "w") as out:
+        out.write(f"{n:8}{-n:8}{6:8}{2:8}{'KAA':8}1P,{per_line}E23.16\n")
+        for column in range(n):
+            first, end = max(0, column - half), min(n, column + half + 1)
+            count, skipped = end - first, first - (column - half)
+            out.write(f"{column + 1:8}{0:8}{2 * count + 2:8}\n{2 * count + 1:8}{first + 1:8}\n")
+            numbers = band[column, skipped : skipped + count].tolist()
+            out.write((whole if count == per_column else lines(count)) % tuple(numbers))
+        out.write(f"{n + 1:8}{1:8}{1:8}\n{2**0.5:23.16E}\n")
 
 
 def write_inp(path, megabytes):

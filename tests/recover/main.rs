@@ -2,6 +2,8 @@
 
 mod displacements;
 mod loads;
+#[cfg(feature = "hdf5")]
+mod opened_by_vtk;
 mod quantities;
 mod refused;
 #[cfg(feature = "hdf5")]

@@ -8,6 +8,8 @@ mod decks;
 mod examples;
 mod gmsh;
 mod hdf5;
+#[cfg(feature = "hdf5")]
+mod opened_by_vtk;
 mod oracle;
 mod vtk;
 
