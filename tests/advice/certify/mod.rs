@@ -1,5 +1,6 @@
 //! `supel certify`: results that are right, and results with a mode lost, invented, repeated or inexact, each named with its frequency.
 
+mod band;
 mod digits;
 mod document;
 #[cfg(feature = "hdf5")]
