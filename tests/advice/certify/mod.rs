@@ -9,6 +9,7 @@ mod files;
 mod foreign_files;
 mod found;
 mod frd;
+mod held_rows;
 mod left_out;
 mod reduced;
 mod refused;
