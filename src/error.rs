@@ -28,6 +28,7 @@ use crate::number::{bytes, count, counted, quantity, typed};
 pub use code::{ErrorClass, ErrorEntry, INTERNAL_CODE, USAGE_CODE};
 pub use selector::Selector;
 pub use warning::Warning;
+pub use words::Unnamed;
 pub(crate) use words::held_words;
 
 /// The result of every fallible call of this crate.
@@ -1165,16 +1166,19 @@ pub enum Error {
         /// Their names.
         formats: Vec<String>,
     },
-    /// One matrix names nodes and directions of its rows, another one does not, and no dof map says which rows those are.
-    #[entry("E-ROWS-UNNAMED", InputData, "give the dof map, or write both matrices in one format")]
-    #[error(
-        "{}: the matrices of the job do not agree on whether rows have names – found one that names nodes and directions and one \
-        that does not – expected both to, or a dof map – give `dofs`, or write both in one format",
-        path.display()
+    /// One matrix names nodes and directions of its rows, another one does not, and no dof map says which rows those are; or nothing names
+    /// those of a matrix whose names are asked for.
+    #[entry(
+        "E-ROWS-UNNAMED",
+        InputData,
+        "give the dof map where the message asks for it, or write both matrices in one format"
     )]
+    #[error("{}: {}", path.display(), of.in_words())]
     RowsUnnamed {
         /// The file of a matrix.
         path: PathBuf,
+        /// What names would be needed for.
+        of: Unnamed,
     },
     /// A matrix names rows that the dof map, or the other matrices, do not have.
     #[entry("E-ROW-UNKNOWN", InputData, "write dof map and matrices from one model")]
@@ -2395,12 +2399,13 @@ pub enum Error {
     #[entry(
         "E-CONSTRAINT-GROUND",
         ModelPhysics,
-        "check signs, levers and coordinates of the constraint named; say `model.constraints_to_ground = \"accept\"` where it is meant"
+        "check signs, levers and coordinates of the constraint named; say `model.constraints_to_ground = \"accept\"` \
+        (`doctor`, `certify` and `init --constraints-to-ground accept`) where it is meant"
     )]
     #[error(
         "constraint row {row} ({}) resists the {motion} of the component by {share:.1e} of the displacements that it compares, and \
-        {} – expected {:.0e} at most – check its signs and levers and the coordinates, or say model.constraints_to_ground = \"accept\" if it \
-        holds the component to the ground",
+        {} – expected {:.0e} at most – check its signs and levers and the coordinates, or say model.constraints_to_ground = \"accept\" \
+        (doctor, certify and init --constraints-to-ground accept) if it holds the component to the ground",
         listed(dofs),
         counted(*n_rows, "constraint does so in all", "constraints do so in all"),
         1e-4

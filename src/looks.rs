@@ -77,7 +77,8 @@ fn certified_superelement(
 
     observer.stage("result");
     let rows = certification::mode_rows(&partition);
-    let given = ForeignSuperelement::read(files, &rows, &Allowance::of(resources.allowed(job)))?;
+    let allowance = Allowance::of(resources.allowed(job));
+    let given = ForeignSuperelement::read(files, &rows, (job.model.duplicates, &allowance))?;
     let interface = certification::interface(&partition, &given);
     let (given, reordered) = given.in_order_of_basis(&interface);
     // Where no coordinate is a row of the model nothing tells which are static answers, and half of them may be.

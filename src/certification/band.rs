@@ -1,7 +1,7 @@
 //! All modes of a band: those that a result has, and those that counts find missing and the own eigensolver finds.
 
 use super::claims::Claims;
-use super::independence::RIGID;
+use super::independence::{RIGID, Standing};
 use super::measured::Measured;
 use crate::eigen::{ElasticCount, Interval, Modes};
 use crate::error::{Error, Result};
@@ -18,6 +18,8 @@ pub struct Band {
     pub to_hz: f64,
 }
 
+/// Relative distance of eigenvalues of one cluster: a result ends inside one, or has some of its modes, without anybody's fault.
+pub(super) const CLUSTER: f64 = 1e-5;
 /// How far above the end of a band its count is taken, relative to λ: off the highest mode by more than rounding, and mostly below the
 /// next one.
 const BEYOND: f64 = 1.0 / 256.0;
@@ -48,20 +50,34 @@ pub(super) struct Completed {
     pub(super) is_asked: bool,
     /// Modes that a count finds missing and that were not looked for, as they are too many.
     pub(super) n_not_sought: usize,
-    /// λ of the first elastic mode, where the band begins at zero.
+    /// λ of the first elastic mode, where the band begins at zero, or has a stated frequency of rigid-body motion in it.
     pub(super) first_elastic: Option<f64>,
 }
 
 impl Completed {
-    /// With the first elastic mode, which a result that has rigid-body modes alone does not tell: `lowest` finds it.
+    /// Whether an eigenvalue lies in the band; clusters at its end are in it.
+    pub(super) fn holds(&self, lambda: f64) -> bool {
+        let [from, to] = self.ends;
+        (from <= 0.0 || lambda >= from * (1.0 - CLUSTER)) && lambda <= to * (1.0 + CLUSTER)
+    }
+
+    /// With the first elastic mode, which tells what is no frequency of rigid-body motion. Neither a result of such motions alone has it,
+    /// nor a band that begins above zero: `lowest` finds it.
     ///
     /// # Errors
     /// Those of `lowest`.
-    pub(super) fn with_first_elastic(self, lowest: impl FnOnce() -> Result<Option<f64>>) -> Result<Self> {
+    pub(super) fn with_first_elastic(
+        self,
+        (claims, standing): (&Claims, &[Standing]),
+        lowest: impl FnOnce() -> Result<Option<f64>>,
+    ) -> Result<Self> {
+        let begins_at_zero = self.ends[0] <= 0.0;
+        let mut stated = claims.lambda.iter().flatten().zip(standing);
         let first_elastic = match self.modes.lambda.first() {
-            _ if self.ends[0] > 0.0 => None,
-            Some(first) => Some(*first),
-            None => lowest()?,
+            Some(first) if begins_at_zero => Some(*first),
+            None if begins_at_zero => lowest()?,
+            _ if stated.any(|(stated, standing)| *standing == Standing::Rigid && self.holds(*stated)) => lowest()?,
+            _ => None,
         };
         Ok(Self { first_elastic, ..self })
     }

@@ -80,7 +80,7 @@ pub fn certified_pairs(
     })?;
     let standing = independent.standing;
     let completed = completed((&search, partition), independent.modes, (claims, &measured), band)?;
-    let completed = completed.with_first_elastic(|| first_elastic(component, job))?;
+    let completed = completed.with_first_elastic((claims, &standing), || first_elastic(component, job))?;
     let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);
     let completed = completed.ending_with(judged.highest);
     let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);

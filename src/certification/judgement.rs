@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use faer::Mat;
 
-use super::band::Completed;
+use super::band::{CLUSTER, Completed};
 use super::claims::Claims;
 use super::independence::Standing;
 use super::measured::Measured;
@@ -19,8 +19,6 @@ use crate::dense;
 use crate::modes::BoundaryProblem;
 use crate::sparse::product;
 
-/// Relative distance of eigenvalues of one cluster: a result ends inside one, or has some of its modes, without anybody's fault.
-const CLUSTER: f64 = 1e-5;
 /// Share of its modal mass that a shape has of a mode at least, to be that mode.
 const MOSTLY: f64 = 0.5;
 /// Relative difference of a frequency beyond which it is not that of its mode: reduced models are accepted with less.
@@ -65,7 +63,9 @@ pub(super) fn judged_pairs(
     for is_kept in [true, false] {
         for claim in 0..claims.count() {
             if (standing[claim] == Standing::Kept) == is_kept {
-                let told = claims.lambda.as_ref().map_or(measured.lambda[claim], |stated| stated[claim]);
+                let own = measured.lambda[claim];
+                // A pair is above what is known where neither its shape nor what is stated of it lies below.
+                let told = claims.lambda.as_ref().map_or(own, |stated| stated[claim].min(own));
                 // A band that nobody asked for ends where the result does: all that it has is judged, but for motions without mass,
                 // which are modes of infinite frequency.
                 let may_be_above = completed.is_asked || !claims.has_mass[claim];
@@ -124,12 +124,6 @@ fn clusters(lambda: &[f64]) -> Vec<Range<usize>> {
 }
 
 impl Truth<'_> {
-    /// Whether an eigenvalue lies in the band; clusters at its end are in it.
-    fn holds(&self, lambda: f64) -> bool {
-        let [from, to] = self.completed.ends;
-        (from <= 0.0 || lambda >= from * (1.0 - CLUSTER)) && lambda <= to * (1.0 + CLUSTER)
-    }
-
     fn n_above(&self) -> usize {
         self.lambda.iter().filter(|lambda| **lambda > self.completed.known_to * (1.0 + CLUSTER)).count()
     }
@@ -244,8 +238,9 @@ impl Context<'_> {
         let is_told = matches!(found.kind, PairKind::Mode | PairKind::RigidBody | PairKind::Inexact);
         let out_of_place = Some(claims.strayed[claim]).filter(|strayed| is_told && strayed.fails());
         let kind = if is_off || out_of_place.is_some() { PairKind::Inexact } else { found.kind };
-        let is_outside =
-            truth.completed.is_asked && kind != PairKind::Repeated && !truth.holds(mode.unwrap_or(stated_or_own));
+        // What is stated in the band is judged although the shape belongs elsewhere, and the other way round.
+        let is_inside = truth.completed.holds(mode.unwrap_or(lambda)) || truth.completed.holds(stated_or_own);
+        let is_outside = truth.completed.is_asked && kind != PairKind::Repeated && !is_inside;
         let kind = if is_outside { PairKind::OutsideBand } else { kind };
         let at = problem.component.partition.dof_under(problem.boundary, measured.worst[claim]);
         JudgedPair {
@@ -278,7 +273,7 @@ impl Context<'_> {
         for (cluster, taken) in clusters.iter().zip(taken) {
             let n_taken = taken.len();
             let n_lacking = cluster.len().saturating_sub(n_taken);
-            let is_inside = self.truth.holds(lambda[cluster.start]);
+            let is_inside = completed.holds(lambda[cluster.start]);
             if n_lacking == 0 || !is_inside {
                 continue;
             }

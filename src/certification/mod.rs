@@ -32,7 +32,7 @@ pub use band::Band;
 pub use certified::{BandCount, Certification, certified_pairs};
 pub use claims::{Claims, PairFiles};
 pub use orientation::right_way_round;
-pub use pair::{JudgedPair, MissingMode, PairKind};
+pub use pair::{JudgedPair, MissingMode, Off, PairKind};
 pub use result_files::ResultFiles;
 pub use rows::mode_rows;
 pub use superelement::{

@@ -48,6 +48,33 @@ pub struct JudgedPair {
     pub neighbours_hz: [Option<f64>; 2],
 }
 
+/// What of a pair is farthest from its mode, relative to the frequency of that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Off {
+    /// The frequency that the result states.
+    Stated(f64),
+    /// The frequency that belongs to its shape.
+    Shape(f64),
+    /// Neither as much as the force that its shape leaves over lets either be.
+    Residual,
+}
+
+impl JudgedPair {
+    /// What of it is off; nothing where it is no mode.
+    pub fn off(&self) -> Option<Off> {
+        let mode = self.mode_hz.filter(|mode| *mode > 0.0)?;
+        let of_shape = self.shape_hz / mode - 1.0;
+        let of_stated = self.stated_hz.map_or(of_shape, |stated| stated / mode - 1.0);
+        let of_residual = self.mode_error_bar_hz.filter(|_| mode == self.shape_hz).map_or(0.0, |bar| bar / mode);
+        let of_pair = of_stated.abs().max(of_shape.abs());
+        Some(match () {
+            () if of_residual > of_pair => Off::Residual,
+            () if of_shape.abs() > of_stated.abs() => Off::Shape(of_shape),
+            () => Off::Stated(of_stated),
+        })
+    }
+}
+
 /// A mode of the model that the result has not.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct MissingMode {

@@ -40,14 +40,16 @@ impl CertifyCommand {
         for (key, path, ending) in [("--html", &html, ".html"), ("--junit", &junit, ".xml")] {
             path.as_deref().map_or(Ok(()), |path| ends_in(key, path, ending))?;
         }
+        let strictness = Strictness::from(strict);
+        let SubjectCommand { job, threads } = SubjectCommand::build(subject, rows, 0)?;
         Ok(Self {
-            subject: SubjectCommand::build(subject, rows, 0)?,
+            subject: SubjectCommand { job: strictness.reading(job), threads },
             files,
             band: band.as_deref().map(band_of).transpose()?,
             html,
             junit,
             answer: Answer::from((json, quiet)),
-            strictness: if strict { Strictness::Strict } else { Strictness::Normal },
+            strictness,
         })
     }
 }

@@ -127,6 +127,6 @@ fn build_verify(flags: VerifyFlags) -> Result<VerifyCommand> {
         rerun: if flags.reproduce { Rerun::Compared } else { Rerun::No },
         threads: Threads::of(flags.threads),
         answer: Answer::from((flags.json, flags.quiet)),
-        strictness: if flags.strict { Strictness::Strict } else { Strictness::Normal },
+        strictness: Strictness::from(flags.strict),
     })
 }

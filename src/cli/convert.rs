@@ -12,7 +12,7 @@ use super::rehearsal::{self, Rehearsed};
 use super::{memory, process};
 use crate::conversion::{Content, Shape};
 use crate::dofs::{Dof, DofMap};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Unnamed};
 use crate::input::{Allowance, InputNote, ReadSingle, RowLabels};
 use crate::number::counted;
 use crate::report::{printable, value_text};
@@ -36,7 +36,7 @@ fn convert_matrix(command: &MatrixConversion, terminal: &mut Terminal<'_>) -> Re
     let read = threads.install(|| command.matrix.read(&Allowance::of(memory_bytes)));
     let mut read = read.map_err(|error| rehearsed.judge(error))?;
     let dofs = match (&command.dofs_output, &read.dofs) {
-        (Some(_), None) => return Err(Error::RowsUnnamed { path: command.matrix.path() }),
+        (Some(_), None) => return Err(Error::RowsUnnamed { path: command.matrix.path(), of: Unnamed::Single }),
         (Some(path), Some(dofs)) => Some((path, table(dofs, &read.labels))),
         (None, _) => None,
     };

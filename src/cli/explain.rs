@@ -32,10 +32,10 @@ pub(super) fn run(flags: &ExplainFlags, terminal: &mut Terminal<'_>) -> Result<E
     Ok(ExitCode::Done)
 }
 
-/// The entry of a code as it may be typed: in lower case, in brackets, without what all errors begin with.
+/// The entry of a code as it may be typed: in lower case, in brackets, without what all errors begin with, a number with any zeros before it.
 fn found(entries: Vec<Entry>, typed: &str) -> Result<Entry> {
     let code = typed.trim().trim_start_matches("error").trim_matches(['[', ']']).to_uppercase().replace('_', "-");
-    let of_code = |code: &str| entries.iter().find(|entry| entry.code == code);
+    let of_code = |code: &str| entries.iter().find(|entry| without_zeros(&entry.code) == without_zeros(code));
     let of_kind = |kind: &str| of_code(&format!("{kind}-{code}"));
     let entry = of_code(&code).or_else(|| ["E", "W"].into_iter().find_map(of_kind));
     entry.cloned().ok_or_else(|| {
@@ -45,6 +45,12 @@ fn found(entries: Vec<Entry>, typed: &str) -> Result<Entry> {
         let suggestion = like(&code).or_else(|| like(&format!("E-{code}"))).map(|code| code.to_uppercase());
         Error::CodeUnknown { code: typed.to_owned(), suggestion }
     })
+}
+
+/// What a code begins with, and its number without the zeros before it.
+fn without_zeros(code: &str) -> (&str, &str) {
+    let (kind, rest) = code.split_once('-').unwrap_or((code, ""));
+    (kind, rest.trim_start_matches('0'))
 }
 
 fn kind(entry: &Entry) -> String {

@@ -1,5 +1,7 @@
 //! How a command that judges answers: what stdout carries, and whether warnings count.
 
+use crate::job::{Duplicates, Job};
+
 /// What stdout carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
@@ -24,4 +26,21 @@ impl From<(bool, bool)> for Answer {
 pub(super) enum Strictness {
     Normal,
     Strict,
+}
+
+/// By the flag `--strict`.
+impl From<bool> for Strictness {
+    fn from(is_strict: bool) -> Self {
+        if is_strict { Self::Strict } else { Self::Normal }
+    }
+}
+
+impl Strictness {
+    /// A job as its files are read: strictly, matrices whose entries repeat a position are refused.
+    pub(super) fn reading(self, mut job: Job) -> Job {
+        if self == Self::Strict {
+            job.model.duplicates = Duplicates::Refuse;
+        }
+        job
+    }
 }

@@ -12,8 +12,7 @@ use super::unverified::Unverified;
 use super::up_to_date::Repetition;
 use crate::error::{Error, Result};
 use crate::job::{
-    Boundary, Duplicates, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob, ReductionJob, RunJob, Skip,
-    WriteJob,
+    Boundary, Job, Method, ModeOrigin, ModeSelection, ModelJob, ModesJob, ReductionJob, RunJob, Skip, WriteJob,
 };
 
 /// Reduce a job.
@@ -42,7 +41,7 @@ impl ReduceCommand {
         let ReduceFlags { job: document, all: _, model, reduction, output, run } = flags;
         let answer = Answer::from((output.json, output.quiet));
         let unverified = Unverified::from(output.allow_unverified);
-        let strictness = if output.strict { Strictness::Strict } else { Strictness::Normal };
+        let strictness = Strictness::from(output.strict);
         let (mut job, remarks) = match &document {
             Some(path) => {
                 let (job, remark) = job_document::read(path)?;
@@ -51,9 +50,7 @@ impl ReduceCommand {
             }
             None => (one_off_job(model, &reduction, output)?, Vec::new()),
         };
-        if strictness == Strictness::Strict {
-            job.model.duplicates = Duplicates::Refuse;
-        }
+        job = strictness.reading(job);
         job.run.certify = reduction.certify.unwrap_or(job.run.certify);
         job.run.memory_gib = run.memory_gib.or(job.run.memory_gib);
         job.run.precision = run.precision.unwrap_or(job.run.precision);

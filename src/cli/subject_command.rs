@@ -33,6 +33,7 @@ impl SubjectCommand {
                 symmetric: rows.symmetric,
                 drop_empty: rows.drop_empty,
                 constraints: rows.constraints,
+                constraints_to_ground: rows.constraints_to_ground.unwrap_or_default(),
                 ..ModelJob::default()
             },
             interfaces: Vec::new(),

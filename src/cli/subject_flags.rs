@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgGroup, Args};
 
 use super::flag_values::values;
-use crate::job::Layout;
+use crate::job::{ConstraintsToGround, Layout};
 use crate::sparse::Triangle;
 
 /// A model: its matrices, what their rows are, and what is held of it.
@@ -41,6 +41,9 @@ pub(super) struct RowFlags {
     /// Multipoint constraints: Matrix Market file of G with G u = 0
     #[arg(long, value_name = "FILE")]
     pub(super) constraints: Option<PathBuf>,
+    /// What becomes of constraints that hold the component to the ground [default: refuse]
+    #[arg(long, value_name = "CHOICE", value_parser = values::<ConstraintsToGround>())]
+    pub(super) constraints_to_ground: Option<ConstraintsToGround>,
     /// Dofs that are held at rest: foot=group:FOOT, or foot=12,17:ux,uy for some directions (repeatable)
     #[arg(long, value_name = "NAME=NODES[:DOFS]")]
     pub(super) fix: Vec<String>,
@@ -118,7 +121,7 @@ pub(super) struct CertifyFlags {
     /// Print only errors and failed checks, one line each; --json still prints the document
     #[arg(short, long, help_heading = "Output")]
     pub(super) quiet: bool,
-    /// Treat warnings as failed checks
+    /// Treat warnings as failed checks and refuse repeated entries of the matrices
     #[arg(long, help_heading = "Output")]
     pub(super) strict: bool,
 }

@@ -142,7 +142,7 @@ pub(super) struct VerifyFlags {
     /// Print only errors and failed checks, one line each; --json still prints the document
     #[arg(short, long)]
     pub(super) quiet: bool,
-    /// Treat warnings as failed checks
+    /// Treat warnings as failed checks and refuse repeated entries of the matrices of --job
     #[arg(long)]
     pub(super) strict: bool,
     /// Number of threads; results do not depend on it [default: all]

@@ -40,7 +40,9 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
     }
     let threads = process::threads(command.threads.used)?;
     let mut stage_line = StageLine::new(terminal.progress);
-    let verify = || (pipeline.verify)(&superelement, command.job.as_ref(), resources, &mut stage_line);
+    // The job that is run again stays as it is: the superelement has it in its bytes.
+    let compared = command.job.clone().map(|job| command.strictness.reading(job));
+    let verify = || (pipeline.verify)(&superelement, compared.as_ref(), resources, &mut stage_line);
     let mut audit = threads.install(verify).map_err(|error| rehearsed.judge(error))?;
     audit.checks.push(audit::rewritten(&superelement, &bytes));
     let digest = superelement.to_bytes().map_err(|error| Error::of_superelement(&command.file, error))?.digest;

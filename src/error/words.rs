@@ -169,3 +169,33 @@ pub(super) fn kinetic_energy(relative: f64) -> String {
 pub(super) fn and_more(n: usize) -> String {
     if n > 0 { format!(" (and {} like it)", counted(n as u64, "file", "files")) } else { String::new() }
 }
+
+/// What names of rows would be needed for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unnamed {
+    /// To put the matrices of a model on common rows.
+    Model,
+    /// To put K̂ and M̂ of a superelement of another program on common rows.
+    Reduced,
+    /// To write what the rows of a matrix are.
+    Single,
+}
+
+impl Unnamed {
+    pub(super) fn in_words(self) -> &'static str {
+        match self {
+            Self::Model => {
+                "the matrices of the model do not agree on whether rows have names – found one that names nodes and directions and one \
+                 that does not – expected both to, or a dof map – give the dof map (`dofs` of a job, --dofs), or write both in one format"
+            }
+            Self::Reduced => {
+                "K̂ and M̂ do not agree on whether rows have names – found one that names nodes and directions and one that does not – \
+                 expected both to, or neither – write both in one format; a dof map is that of K and M"
+            }
+            Self::Single => {
+                "nothing says what its rows are – found a matrix that names none, and no dof map of as many rows – expected a node and \
+                 a direction for each – give its dof map with --dofs, or leave --write-dofs out"
+            }
+        }
+    }
+}

@@ -96,6 +96,9 @@ fn lines_of(error: &Error) -> Vec<String> {
             "symmetric = \"upper\"         # where the lower one is",
         ],
         Error::EmptyRows { .. } => &["drop_empty = true           # [model] of the job, or --drop-empty"],
+        Error::ConstraintGround { .. } => {
+            &["constraints_to_ground = \"accept\" # [model] of the job, or --constraints-to-ground accept"]
+        }
         Error::DigitsTooFew { .. } => &["stiffness_digits = 17       # [model] of the job, if its numbers are exact"],
         Error::RotationsHeld { rotations, .. } => return vec![held_rotations(rotations)],
         _ => &[],

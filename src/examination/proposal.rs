@@ -11,7 +11,7 @@ use super::examined::Examined;
 use super::finding::Severity;
 use super::interfaces::Candidate;
 use super::text::{on_surface, units as in_words};
-use crate::job::NodeSelection;
+use crate::job::{ConstraintsToGround, NodeSelection};
 use crate::number::{counted, quantity};
 use crate::report::printable;
 
@@ -88,6 +88,9 @@ impl Proposal<'_> {
         ];
         for (key, file) in files {
             file.iter().for_each(|file| text += &line(key, path(file), ""));
+        }
+        if model.constraints_to_ground != ConstraintsToGround::default() {
+            text += &line("constraints_to_ground", "accept", "constraints hold the component");
         }
         if let Some(layout) = model.layout.and_then(|layout| Value::try_from(layout).ok()) {
             text += &line("layout", layout, "the content leaves several formats");

@@ -7,7 +7,7 @@ use super::format::{OrderSource, ReadMatrix};
 use super::row_label::RowLabel;
 use super::{InputNote, MatrixInput};
 use crate::dofs::{Direction, DofMap};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Unnamed};
 use crate::sparse::{Given, RowStorage, SparseMatrix, filled};
 
 /// What each row of the files is; unknown for rows of which neither matrices nor a dof map say so.
@@ -62,7 +62,7 @@ impl RowLabels {
     /// [`Error::RowsUnnamed`] where no row is known; [`Error::RowUnknown`] for a label that none has.
     fn rows_of(&self, path: &Path, labels: &[RowLabel]) -> Result<Vec<u32>> {
         if self.0.is_empty() {
-            return Err(Error::RowsUnnamed { path: path.to_owned() });
+            return Err(Error::RowsUnnamed { path: path.to_owned(), of: Unnamed::Model });
         }
         let numbered = self.0.iter().zip(0u32..).filter_map(|(label, row)| Some(((*label)?, row)));
         let rows: HashMap<RowLabel, u32> = numbered.collect();
@@ -90,7 +90,7 @@ impl RowLabels {
     ///
     /// # Errors
     /// [`Error::RowsUnnamed`] where one names its rows, another does not, and no map is there.
-    pub(super) fn common(matrices: &[&ReadMatrix], map: Option<Self>) -> Result<Self> {
+    pub(super) fn common(matrices: &[&ReadMatrix], (map, of): (Option<Self>, Unnamed)) -> Result<Self> {
         if matrices.iter().all(|matrix| matrix.labels.is_none()) {
             return Ok(Self::default());
         }
@@ -99,7 +99,7 @@ impl RowLabels {
         }
         let mut labels: Vec<RowLabel> = Vec::new();
         for matrix in matrices {
-            let unnamed = || Error::RowsUnnamed { path: matrix.input.path.clone() };
+            let unnamed = || Error::RowsUnnamed { path: matrix.input.path.clone(), of };
             labels.extend(matrix.labels.as_ref().ok_or_else(unnamed)?);
         }
         labels.sort_unstable();

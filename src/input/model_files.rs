@@ -19,7 +19,7 @@ use super::quantity_files::{QuantityRows, quantity_rows};
 use super::superelement_file::refuse_other;
 use super::{Cells, InputNote, MatrixInput, MatrixRole, empty_rows, formats, unit_mass};
 use crate::dofs::{DofMap, FileRows, Nodes};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, Unnamed};
 use crate::job::{
     ConstraintsToGround, Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob,
 };
@@ -271,7 +271,7 @@ fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNo
     let is_labelled = matrices.iter().any(|matrix| matrix.labels.is_some());
     let map =
         model.dofs.as_deref().filter(|_| is_labelled).map(|path| dof_map_for_labels(path, allowance)).transpose()?;
-    let labels = RowLabels::common(&matrices, map.map(|(_, labels)| labels))?;
+    let labels = RowLabels::common(&matrices, (map.map(|(_, labels)| labels), Unnamed::Model))?;
     let stiffness = labels.placed(stiffness)?;
     let (mut stiffness, mut mass) = match mass {
         Some(mass) => {
@@ -300,7 +300,7 @@ fn read_constraints(
     Ok(Some(ConstraintRows { may_ground: model.constraints_to_ground == ConstraintsToGround::Accept, ..read }))
 }
 
-fn refuse_duplicates(matrix: &MatrixInput, duplicates: Duplicates) -> Result<()> {
+pub(super) fn refuse_duplicates(matrix: &MatrixInput, duplicates: Duplicates) -> Result<()> {
     match (duplicates, matrix.notes.n_duplicates) {
         (Duplicates::Refuse, count @ 1..) => Err(Error::Duplicates { path: matrix.path.clone(), count }),
         _ => Ok(()),

@@ -5,10 +5,11 @@ use std::path::Path;
 use super::common_rows::{RowLabels, take_notes};
 use super::format::{MatrixSource, ReadMatrix};
 use super::member::split_member;
-use super::model_files::read_matrix;
+use super::model_files::{read_matrix, refuse_duplicates};
 use super::{Allowance, MatrixInput, MatrixRole};
 use crate::dofs::DofMap;
-use crate::error::Result;
+use crate::error::{Result, Unnamed};
+use crate::job::Duplicates;
 
 /// The reduced matrices of a superelement.
 #[derive(Clone, Debug)]
@@ -26,8 +27,9 @@ impl ReducedPair {
     /// either has.
     ///
     /// # Errors
-    /// The errors of the readers; [`crate::error::Error::RowsUnnamed`] where only one of them names its rows.
-    pub fn read(stiffness: &Path, mass: &Path, allowance: &Allowance) -> Result<Self> {
+    /// The errors of the readers; [`crate::error::Error::RowsUnnamed`] where only one of them names its rows;
+    /// [`crate::error::Error::Duplicates`] where entries that repeat a position are refused.
+    pub fn read([stiffness, mass]: [&Path; 2], (duplicates, allowance): (Duplicates, &Allowance)) -> Result<Self> {
         let read = |path: &Path| -> Result<ReadMatrix> {
             let (file, member) = split_member(path);
             let role = MatrixRole::Reduced;
@@ -42,8 +44,11 @@ impl ReducedPair {
             })
         };
         let (stiffness, mass) = (read(stiffness)?, read(mass)?);
-        let labels = RowLabels::common(&[&stiffness, &mass], None)?;
-        let placed = |matrix| Ok(take_notes(labels.placed(matrix)?, &mut Vec::new()).0);
+        let labels = RowLabels::common(&[&stiffness, &mass], (None, Unnamed::Reduced))?;
+        let placed = |matrix| {
+            let (matrix, _) = take_notes(labels.placed(matrix)?, &mut Vec::new());
+            refuse_duplicates(&matrix, duplicates).map(|()| matrix)
+        };
         Ok(Self { stiffness: placed(stiffness)?, mass: placed(mass)?, dofs: labels.dof_map() })
     }
 }

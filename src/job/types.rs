@@ -181,7 +181,7 @@ fn rotations<'de, D: serde::Deserializer<'de>>(deserializer: D) -> std::result::
 }
 
 /// What becomes of constraints that resist rigid-body motion, and so hold the component to the ground.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum ConstraintsToGround {
     /// They are an error.

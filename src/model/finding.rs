@@ -27,6 +27,11 @@ pub enum Finding {
         /// How many.
         n_rows: usize,
     },
+    /// Rows of K that have nothing but a diagonal entry, and no mass: a program has held them so, and they stay at rest.
+    HeldByDiagonal {
+        /// How many.
+        n_rows: usize,
+    },
     /// Rows without stiffness that carry mass: free particles, each a zero mode.
     FreeParticles {
         /// Their numbers, from zero.
@@ -161,7 +166,7 @@ impl Finding {
     pub fn warning(&self) -> Option<&'static str> {
         match self {
             Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
-            Self::MasslessRows { .. } | Self::Constrained { .. } => None,
+            Self::MasslessRows { .. } | Self::HeldByDiagonal { .. } | Self::Constrained { .. } => None,
             Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
             Self::MassCouplesOthers { .. } => Some("W-MASS-ORDER"),
             Self::Penalties { .. } => Some("W-PENALTY"),
@@ -188,10 +193,8 @@ impl std::fmt::Display for Finding {
                 )
             }
             Self::MasslessRows { n_rows } => write!(f, "{} no mass: their frequencies are infinite", counted(*n_rows, "row has", "rows have")),
-            Self::FreeParticles { rows, first } => {
-                let rows = counted(rows.len(), "row has", "rows have");
-                write!(f, "{rows} mass and no stiffness, the first is {first}: free particles")
-            }
+            Self::HeldByDiagonal { n_rows } => f.write_str(&held_by_diagonal(*n_rows)),
+            Self::FreeParticles { rows, first } => f.write_str(&free_particles(rows.len(), first)),
             Self::MassCouplesOthers { n_apart, n_nodes, at } => {
                 f.write_str(&couples_others([*n_apart, *n_nodes], at))
             }
@@ -301,6 +304,16 @@ fn mass_by_direction(n_nodes: usize, at: &str) -> String {
          in a held component look like supports",
         counted(n_nodes, "node has", "nodes have")
     )
+}
+
+fn held_by_diagonal(n_rows: usize) -> String {
+    let rows = counted(n_rows, "row is", "rows are");
+    format!("{rows} held by a diagonal entry of K alone, without mass, as a program writes boundary conditions")
+}
+
+fn free_particles(n_rows: usize, first: &str) -> String {
+    let rows = counted(n_rows, "row has", "rows have");
+    format!("{rows} mass and no stiffness, the first is {first}: free particles")
 }
 
 fn couples_others([n_apart, n_nodes]: [usize; 2], at: &str) -> String {

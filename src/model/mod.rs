@@ -308,7 +308,7 @@ fn check_diagonals(
     if m_max == 0.0 && mass.data().iter().all(|m| *m == 0.0) {
         return Err(Error::NoMass);
     }
-    let (mut massless, mut rounding) = (0, 0);
+    let (mut massless, mut alone, mut rounding) = (0, 0, 0);
     let (mut empty, mut particles) = (Vec::new(), Vec::new());
     for (row, m) in m_diag.iter().copied().enumerate() {
         let k_empty = is_empty_row(stiffness, row);
@@ -324,6 +324,8 @@ fn check_diagonals(
         }
         if m_empty {
             massless += 1;
+            let is_tied = tied.binary_search(&(row as u32)).is_ok();
+            alone += usize::from(!is_tied && is_diagonal_row(stiffness, row));
         } else if m < -(n as f64) * f64::EPSILON * m_max {
             return Err(Error::NegativeMass { row: names.number(row), dof: names.bracketed(row), value: m });
         } else if m < 0.0 {
@@ -339,6 +341,7 @@ fn check_diagonals(
         }
     };
     note(massless, |n_rows| Finding::MasslessRows { n_rows });
+    note(alone, |n_rows| Finding::HeldByDiagonal { n_rows });
     note(rounding, |n_rows| Finding::NegativeMassByRounding { n_rows });
     findings.extend(Finding::free_particles(particles, names));
     findings.extend(penalties(&k_diag, names));
@@ -379,6 +382,11 @@ fn clear_negative_rounding(mass: &mut SparseMatrix) {
             *value = 0.0;
         }
     }
+}
+
+/// Whether nothing of a row is in other columns.
+fn is_diagonal_row(matrix: &SparseMatrix, row: usize) -> bool {
+    matrix.outer_view(row).is_none_or(|view| view.iter().all(|(col, value)| col == row || *value == 0.0))
 }
 
 fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {

@@ -9,7 +9,7 @@ use super::page::{Page, Paint, Tone, WIDTH, verdict_word};
 use super::summary::body;
 use super::table::{self, Align};
 use super::{Generator, MatrixReport, json_text};
-use crate::certification::{BandCount, Certification, JudgedPair, MissingMode, PairKind};
+use crate::certification::{BandCount, Certification, JudgedPair, MissingMode, Off, PairKind};
 use crate::error::{Result, Warning};
 use crate::input::{ForeignModes, InputFacts, MatrixFacts, ModeValues};
 use crate::modes::Component;
@@ -169,7 +169,7 @@ impl CertificationReport {
     pub(super) fn found(&self) -> Vec<(&'static str, String)> {
         let Certification { band_hz: [from, to], count, missing, n_not_sought, notes, .. } = &self.certification;
         let mut lines = vec![("band", format!("{} Hz to {} Hz", quantity(*from, 7), quantity(*to, 7)))];
-        lines.extend(count.iter().map(|count| ("count", counted_in_words(count))));
+        lines.extend(count.iter().map(|count| ("count", counted_in_words(count, *from))));
         for (at, mode) in missing.iter().take(SHOWN).enumerate() {
             lines.push((if at == 0 { "missing" } else { "" }, missing_in_words(mode)));
         }
@@ -250,13 +250,19 @@ pub(super) fn read_model(page: &mut Page, model: &CertifiedModel) {
     page.entry("mass", &body::matrix(mass));
 }
 
-fn counted_in_words(count: &BandCount) -> String {
+/// The count of a band that begins at a frequency.
+fn counted_in_words(count: &BandCount, from_hz: f64) -> String {
     let BandCount { below_hz, n_counted, n_given, doubt } = count;
     let likely = if *doubt > 1.0 { "; its pivots grew so much that it is likely, not certain" } else { "" };
+    let to = quantity(*below_hz, 7);
+    let place = if from_hz > 0.0 {
+        format!("between {} Hz and {to} Hz", quantity(from_hz, 7))
+    } else {
+        format!("up to {to} Hz")
+    };
     format!(
-        "a Sturm count finds {} up to {} Hz; the result has {}{likely}",
+        "a Sturm count finds {} {place}; the result has {}{likely}",
         counted(*n_counted, "mode", "modes"),
-        quantity(*below_hz, 7),
         if n_given == n_counted { "all of them".to_owned() } else { number::count(*n_given as u64) }
     )
 }
@@ -333,11 +339,15 @@ pub(super) fn pair_in_words(pair: &JudgedPair) -> String {
         }
         PairKind::Inexact => match pair.mode_hz {
             Some(0.0) => format!("{name}: rigid-body motion, which has no frequency"),
-            Some(mode) => format!(
-                "{name}: {shape}, the mode that it is has {}, off by {} %",
-                with_bar(mode, pair.mode_error_bar_hz.unwrap_or(f64::INFINITY)),
-                quantity(100.0 * (stated / mode - 1.0), 2)
-            ),
+            Some(mode) => {
+                let mode = with_bar(mode, pair.mode_error_bar_hz.unwrap_or(f64::INFINITY));
+                let off = match pair.off() {
+                    Some(Off::Stated(off)) => format!("off by {} %", quantity(100.0 * off, 2)),
+                    Some(Off::Shape(off)) => format!("the shape is off by {} % of it", quantity(100.0 * off, 2)),
+                    Some(Off::Residual) | None => "known no better by the residual of its shape".to_owned(),
+                };
+                format!("{name}: {shape}, the mode that it is has {mode}, {off}")
+            }
             None => format!("{name}: {shape}"),
         },
         PairKind::RigidBody | PairKind::Mode | PairKind::OutsideBand => format!("{name}: {shape}"),

@@ -150,12 +150,16 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
 }
 
 /// The motions that cost no energy: those with mass, M-orthonormal, and those without. Each is held to its own rounding: next to a heavy mass
-/// rotations about it, of unit modal mass, are so much larger than its translations that their rounding would hide what holds those.
+/// rotations about it, of unit modal mass, are so much larger than its translations that their rounding would hide what holds those. A body
+/// of which nothing has mass may be held, as rows that a program left a diagonal entry of K alone are; free it has no motion that can be told.
 fn free_motions(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<f64>, Mat<f64>)> {
     let (massive, massless) = mass_orthonormal(&partition.mass, motions, 0.0)?;
     let found = [Energies::of(partition, massive.as_ref())?, Energies::of(partition, massless.as_ref())?];
     found[0].refuse_negative(partition)?;
     let n_free: usize = found.iter().map(|energies| energies.n_within(&energies.zero)).sum();
+    if found[0].motions.ncols() == 0 && n_free > 0 {
+        return Err(Error::MasslessRigidMotion { relative_mass: 0.0 });
+    }
     if n_free < motions.ncols() && is_free_to_k(partition, &found)? {
         let [massive, massless] = found.map(|energies| energies.motions);
         return Ok((massive, massless));
@@ -247,9 +251,6 @@ fn mass_orthonormal(mass: &SparseMatrix, motions: MatRef<'_, f64>, rounding: f64
     let own = modal_mass(q.as_ref());
     let masses: Vec<f64> = (0..q.ncols()).map(|j| own[(j, j)]).collect();
     let largest = masses.iter().fold(0.0f64, |max, mass| max.max(*mass));
-    if largest.is_nan() || largest <= 0.0 {
-        return Err(Error::MasslessRigidMotion { relative_mass: 0.0 });
-    }
     let terms = absolute_energy(mass, q.as_ref());
     let has_mass = |j: &usize| masses[*j] > (NO_MASS * largest).max(rounding * terms[*j]);
     let (massive, massless): (Vec<usize>, Vec<usize>) = (0..q.ncols()).partition(has_mass);
@@ -257,6 +258,9 @@ fn mass_orthonormal(mass: &SparseMatrix, motions: MatRef<'_, f64>, rounding: f64
         Mat::from_fn(q.nrows(), kept.len(), |i, j| q[(i, kept[j])] * factor(kept[j]))
     };
     let massless = of(&massless, &|_| 1.0);
+    if massive.is_empty() {
+        return Ok((of(&massive, &|_| 1.0), massless));
+    }
     q = of(&massive, &|j| 1.0 / masses[j].sqrt());
     // Two more passes remove what rounding of the first left: a body far from round has unlike modal masses.
     for _ in 0..2 {

@@ -14,6 +14,10 @@ fn all() -> Value {
     document
 }
 
+fn one(code: &str) -> Value {
+    serde_json::from_str(&supel(&["explain", code, "--json"]).expect(ExitCode::Done).out).expect("JSON")
+}
+
 fn codes(document: &Value) -> Vec<&str> {
     document["entries"]
         .as_array()
@@ -69,6 +73,12 @@ fn a_code_may_be_typed_as_it_is_read() {
     }
     let check = supel(&["explain", "m-06"]).expect(ExitCode::Done).out;
     assert!(check.contains("check of a report") && check.contains("without computing a single mode"), "{check}");
+    for typed in ["M-6", "m-006", "[M-6]"] {
+        assert_eq!(supel(&["explain", typed]).expect(ExitCode::Done).out, check, "{typed}");
+    }
+    for (typed, code) in [("C-1", "C-01"), ("M-26", "M-26")] {
+        assert_eq!(codes(&one(typed)), [code]);
+    }
 }
 
 #[test]

@@ -2,14 +2,21 @@
 
 use super::subject::{OfPair, Subject, worst};
 use crate::certification::judgement::{MOST_OF_DIGITS, NOT_RIGID, of_digits_in_energy, of_digits_in_frequency};
+use crate::certification::pair::{Off, PairKind};
 use crate::eigen::NOTICED_BAR;
 use crate::modes::Component;
-use crate::number::quantity;
+use crate::number::{quantity, scientific};
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::{self, Known, UNKNOWN};
 
 /// Relative difference of a frequency that digits excuse without a warning, and at all.
 const WITHIN_DIGITS: [f64; 2] = [1e-3, 1e-2];
+
+/// A frequency in six digits, or the few more in which it differs from another.
+fn apart(hertz: f64, other: f64) -> String {
+    let differs = |digits: &usize| quantity(hertz, *digits) != quantity(other, *digits);
+    quantity(hertz, (6..=9).find(differs).unwrap_or(6))
+}
 
 /// λ of rigid-body motion relative to the first elastic mode that practice does not see: a thousandth of its frequency.
 const RIGID_ENERGY: f64 = 1e-6;
@@ -87,10 +94,21 @@ impl Subject<'_> {
     }
 
     fn told_frequency(&self, claim: usize) -> String {
-        let pair = &self.judged.pairs[claim];
-        match pair.mode_hz.filter(|mode| *mode != pair.shape_hz) {
-            Some(mode) => format!("{}, which is mostly that of {} Hz", self.name(claim), quantity(mode, 6)),
-            None => format!("{}, whose shape has {} Hz", self.name(claim), quantity(pair.shape_hz, 6)),
+        let (name, pair) = (self.name(claim), &self.judged.pairs[claim]);
+        let (shape, stated) = (pair.shape_hz, pair.stated_hz.unwrap_or(pair.shape_hz));
+        match (pair.off(), pair.mode_hz.filter(|mode| *mode != shape)) {
+            (Some(Off::Shape(_)), Some(mode)) => {
+                format!(
+                    "{name}, whose shape has {} Hz and is mostly that of {} Hz",
+                    apart(shape, mode),
+                    apart(mode, shape)
+                )
+            }
+            (_, Some(mode)) => format!("{name}, which is mostly that of {} Hz", apart(mode, stated)),
+            (Some(Off::Residual), None) => {
+                format!("{name}, whose shape has that within {} Hz by its residual", scientific(pair.error_bar_hz, 2))
+            }
+            (_, None) => format!("{name}, whose shape has {} Hz", apart(shape, stated)),
         }
     }
 
@@ -98,7 +116,8 @@ impl Subject<'_> {
     pub(super) fn rigid_frequencies(&self) -> Option<Check> {
         let first = self.completed.first_elastic?;
         let is_rigid = |claim: &usize| self.judged.pairs[*claim].mode_hz == Some(0.0);
-        let rigid: Vec<usize> = (0..self.claims.count()).filter(is_rigid).collect();
+        let kinds = [PairKind::RigidBody, PairKind::Inexact];
+        let rigid: Vec<usize> = self.of_kinds(&kinds).into_iter().filter(is_rigid).collect();
         let stated = |claim: usize| self.claims.lambda.as_ref().map_or(self.measured.lambda[claim], |all| all[claim]);
         let of_pair = |claim: usize| {
             let data = of_digits_in_energy(self.measured, claim, first);

@@ -2,10 +2,10 @@
 
 use crate::certification::claims::Claims;
 use crate::certification::judgement::Judged;
-use crate::certification::pair::PairKind;
+use crate::certification::pair::{JudgedPair, PairKind};
 use crate::eigen::NOTICED_BAR;
 use crate::modes::Component;
-use crate::number::counted;
+use crate::number::{counted, quantity};
 
 /// What is said besides the checks, one sentence each.
 pub(in crate::certification) fn notes(component: Component<'_>, claims: &Claims, judged: &Judged) -> Vec<String> {
@@ -27,7 +27,24 @@ pub(in crate::certification) fn notes(component: Component<'_>, claims: &Claims,
         notes.push("the result has no frequencies: those that belong to its shapes are shown".to_owned());
     }
     notes.extend(order(judged));
+    notes.extend(unjudged(judged));
     notes
+}
+
+/// A result of which no elastic pair lies in the band: what else was checked says nothing of its modes.
+fn unjudged(judged: &Judged) -> Option<String> {
+    let elastic = || judged.pairs.iter().filter(|pair| pair.mode_hz != Some(0.0));
+    let stated = elastic().map(|pair| pair.stated_hz.unwrap_or(pair.shape_hz));
+    let (low, high) = stated.fold((f64::INFINITY, 0.0f64), |(low, high), hertz| (low.min(hertz), high.max(hertz)));
+    let is_outside = |pair: &JudgedPair| pair.kind == PairKind::OutsideBand;
+    (elastic().next().is_some() && elastic().all(is_outside)).then(|| {
+        format!(
+            "no elastic pair of the result lies in the band: none was judged, neither its frequency nor its shape; they lie from {} Hz \
+             to {} Hz",
+            quantity(low, 6),
+            quantity(high, 6)
+        )
+    })
 }
 
 /// Frequencies that are all there and belong to other shapes.

@@ -7,6 +7,7 @@ use faer::Mat;
 use crate::dofs::DofMap;
 use crate::error::{Error, Result};
 use crate::input::{self, Allowance, ForeignModes, MatrixInput, ModeRows, ReducedPair};
+use crate::job::Duplicates;
 
 /// Where a superelement of another program is.
 #[derive(Clone, Debug)]
@@ -44,14 +45,19 @@ pub struct ReducedMatrix {
 }
 
 impl ForeignSuperelement {
-    /// Reads a superelement, for matrices of these rows.
+    /// Reads a superelement, for matrices of these rows. What becomes of entries of K̂ and M̂ that repeat a position is as it is in K and M.
     ///
     /// # Errors
     /// Those of the readers; [`Error::ReducedSize`] where a matrix has not as many rows as the basis has columns.
-    pub fn read(files: &ReducedFiles, rows: &ModeRows, allowance: &Allowance) -> Result<Self> {
+    pub fn read(
+        files: &ReducedFiles,
+        rows: &ModeRows,
+        (duplicates, allowance): (Duplicates, &Allowance),
+    ) -> Result<Self> {
         let basis = input::foreign_modes(&files.basis, rows, allowance)?;
         let n_columns = basis.columns.len();
-        let ReducedPair { stiffness, mass, dofs } = ReducedPair::read(&files.stiffness, &files.mass, allowance)?;
+        let ReducedPair { stiffness, mass, dofs } =
+            ReducedPair::read([&files.stiffness, &files.mass], (duplicates, allowance))?;
         let matrix = |input| ReducedMatrix::of(input, n_columns);
         Ok(Self { stiffness: matrix(stiffness)?, mass: matrix(mass)?, basis, dofs })
     }

@@ -158,6 +158,27 @@ fn frequencies_in_another_order_than_shapes_are_told() {
     assert!(found["notes"].to_string().contains("different orders"), "{found}");
 }
 
+/// A right frequency of a poor shape: what is off is the shape, and no number stands for another one.
+#[test]
+fn a_poor_shape_is_told_as_one() {
+    let all = lowest(&bar(), 40);
+    let mut pairs = lowest(&bar(), 14);
+    pairs.shapes[12] = all.shapes[12].iter().zip(&all.shapes[35]).map(|(a, b)| a + 0.1 * b).collect();
+    let place = place_of(&bar(), &pairs);
+    let found = document(&place, "", ExitCode::CheckFailed);
+    let check = found["checks"].as_array().expect("checks").iter().find(|check| check["id"] == "C-01").expect("C-01");
+    let said = check["worst"].as_str().expect("words");
+    let numbers: Vec<&str> = said.split(' ').filter(|word| word.parse::<f64>().is_ok()).collect();
+    assert!(said.contains("whose shape has") && numbers.len() == 4 && numbers[2] != numbers[3], "{said}");
+    let text = certify(&place, "").expect(ExitCode::CheckFailed).out;
+    assert!(text.contains("the shape is off by"), "{text}");
+    // A wrong frequency of a right shape.
+    let mut pairs = lowest(&bar(), 14);
+    pairs.hertz[12] *= 1.02;
+    let text = certify(&place_of(&bar(), &pairs), "").expect(ExitCode::CheckFailed).out;
+    assert!(text.contains(", off by 2 %"), "{text}");
+}
+
 /// The band decides what is missing, whatever the result has beyond it.
 #[test]
 fn a_band_is_looked_through_from_end_to_end() {

@@ -1,5 +1,6 @@
 //! `supel certify`: results that are right, and results with a mode lost, invented, repeated or inexact, each named with its frequency.
 
+mod band;
 mod digits;
 mod document;
 #[cfg(feature = "hdf5")]
@@ -8,6 +9,7 @@ mod files;
 mod foreign_files;
 mod found;
 mod frd;
+mod held_rows;
 mod left_out;
 mod reduced;
 mod refused;

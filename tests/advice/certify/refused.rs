@@ -1,8 +1,10 @@
 //! Results that cannot be read, and numbers in another unit than is said.
 
 use supel::cli::ExitCode;
+use supel_models::transform::supported;
 use supel_testing::place::{Place, supel};
 
+use super::superelement::{self, Foreign};
 use super::{bar, certify, lowest, place_of};
 
 fn refused(place: &Place, flags: [&str; 2]) -> (ExitCode, String) {
@@ -79,4 +81,90 @@ fn an_output_is_never_written_over_an_input() {
     let ended = supel(&["certify", &k, &m, &html, "--html", &html]).expect(ExitCode::Usage);
     assert!(ended.err.contains("E-OVERWRITE"), "{}", ended.err);
     assert!(place.bytes("V.html").starts_with(b"%%MatrixMarket"));
+}
+
+/// Entries that repeat a position are added with a note, and strictly refused: in the matrices of the model and of a superelement.
+#[test]
+fn repeated_entries_are_refused_strictly() {
+    let place = place_of(&bar(), &lowest(&bar(), 12));
+    repeat_an_entry(&place, "K.mtx");
+    certify(&place, "").expect(ExitCode::Done);
+    let said = certify(&place, "--strict").expect(ExitCode::InputData).err;
+    assert!(said.contains("E-DUPLICATES") && said.contains("K.mtx"), "{said}");
+    place.reduce(&place.model_flags(), "--interface ends=1,9,27 --method guyan").expect(ExitCode::Done);
+    let file = place.text("x.supel");
+    place.write("job.json", supel(&["inspect", &file, "--job"]).expect(ExitCode::Done).out.as_bytes());
+    let job = place.text("job.json");
+    supel(&["verify", &file, "--job", &job]).expect(ExitCode::Done);
+    let said = supel(&["verify", &file, "--job", &job, "--strict"]).expect(ExitCode::InputData).err;
+    assert!(said.contains("E-DUPLICATES") && said.contains("K.mtx"), "{said}");
+
+    let model = lowest_model();
+    let place = Place::with(&model);
+    Foreign::craig_bampton(&model, &superelement::interface(), 12).write(&place);
+    repeat_an_entry(&place, "mhat.mtx");
+    superelement::certify(&place, "").expect(ExitCode::Done);
+    let said = superelement::certify(&place, "--strict").expect(ExitCode::InputData).err;
+    assert!(said.contains("E-DUPLICATES") && said.contains("mhat.mtx"), "{said}");
+}
+
+/// Adds a zero at a position that a Matrix Market file has already.
+fn repeat_an_entry(place: &Place, name: &str) {
+    let text = String::from_utf8(place.bytes(name)).expect("text");
+    let is_size = |line: &&str| !line.starts_with('%');
+    let size = text.lines().find(is_size).expect("a size line");
+    let numbers: Vec<usize> = size.split_whitespace().map(|number| number.parse().expect("a number")).collect();
+    let longer = format!("{} {} {}", numbers[0], numbers[1], numbers[2] + 1);
+    place.write(name, (text.replacen(size, &longer, 1).trim_end().to_owned() + "\n1 1 0\n").as_bytes());
+}
+
+/// A constraint that holds the component: what the error advises is a flag of each of these commands.
+#[test]
+fn constraints_to_ground_are_taken_where_a_flag_says_so() {
+    let model = lowest_model();
+    let held = supported(&model, |dof| dof == (45, 1));
+    let row = model.dofs.iter().position(|dof| *dof == (45, 1)).expect("a row");
+    let mut pairs = lowest(&held, 12);
+    pairs.shapes.iter_mut().for_each(|shape| shape.insert(row, 0.0));
+    let place = place_of(&model, &pairs);
+    let g = format!("%%MatrixMarket matrix coordinate real general\n1 {} 1\n1 {} 1\n", model.n, row + 1);
+    place.write("G.mtx", g.as_bytes());
+    let [k, m, g, dofs, nodes] = ["K.mtx", "M.mtx", "G.mtx", "dofs.txt", "nodes.csv"].map(|name| place.text(name));
+    let flags = format!("--constraints {g} --dofs {dofs} --nodes {nodes}");
+    let accepted = format!("{flags} --constraints-to-ground accept");
+    let said = certify(&place, &flags).expect(ExitCode::ModelPhysics).err;
+    assert!(said.contains("E-CONSTRAINT-GROUND") && said.contains("--constraints-to-ground accept"), "{said}");
+    let text = certify(&place, &accepted).expect(ExitCode::Done).out;
+    assert!(
+        text.contains("holds the component to the ground") && text.contains("a Sturm count finds 12 modes"),
+        "{text}"
+    );
+    let of =
+        |command: &str, flags: &str| supel(&[&[command, &k, &m], &flags.split(' ').collect::<Vec<_>>()[..]].concat());
+    let text = of("doctor", &flags).out;
+    assert!(text.contains("E-CONSTRAINT-GROUND") && text.contains("--constraints-to-ground accept"), "{text}");
+    let text = of("doctor", &accepted).expect(ExitCode::Done).out;
+    assert!(!text.contains("E-CONSTRAINT-GROUND") && text.contains("holds the component"), "{text}");
+    let job = of("init", &accepted).expect(ExitCode::Done).out;
+    assert!(job.contains("constraints_to_ground = \"accept\""), "{job}");
+}
+
+/// Names that K̂ has and M̂ has not, and names that nothing gives: each text asks for what is possible there.
+#[test]
+fn rows_without_names_are_told_by_what_they_are_needed_for() {
+    let model = lowest_model();
+    let place = Place::with(&model);
+    let foreign = Foreign::craig_bampton(&model, &superelement::interface(), 2);
+    foreign.write(&place);
+    let n = foreign.stiffness.nrows();
+    let lines: Vec<String> = (1..=n).map(|row| format!("{row}, 1, {row}, 1, {row}.0")).collect();
+    place.write("khat.mtx", (lines.join("\n") + "\n").as_bytes());
+    let said = superelement::certify(&place, "").expect(ExitCode::InputData).err;
+    assert!(said.contains("E-ROWS-UNNAMED") && said.contains("K̂ and M̂ do not agree"), "{said}");
+    assert!(!said.contains("give `dofs`") && !said.contains("of the job"), "{said}");
+    let [k, npz, table] = ["K.mtx", "k.npz", "rows.csv"].map(|name| place.text(name));
+    let said = supel(&["convert", &k, &npz, "--write-dofs", &table]).expect(ExitCode::InputData).err;
+    assert!(said.contains("nothing says what its rows are") && said.contains("--dofs"), "{said}");
+    let dofs = place.text("dofs.txt");
+    supel(&["convert", &k, &npz, "--write-dofs", &table, "--dofs", &dofs]).expect(ExitCode::Done);
 }

@@ -11,7 +11,7 @@ use supel_testing::place::{Place, steel_brick};
 use super::{Pairs, document, lowest, of_kind, pairs_of, verdict};
 
 /// The modes of a held brick on all rows of the free one, and the flags that hold it.
-fn held() -> (Model, Pairs, impl Fn(&Place) -> String) {
+pub(super) fn held() -> (Model, Pairs, impl Fn(&Place) -> String) {
     let free = steel_brick();
     let is_held = |label: i64| label % 5 == 1;
     let pairs = lowest(&supported(&free, |(label, _)| is_held(label)), 10);

@@ -157,7 +157,7 @@ fn rows_follow_the_dof_map_or_both_matrices() {
     assert!(matches!(&error, Error::RowUnknown { missing, n_rows: 2, .. } if missing == &["node 5 ux"]), "{error}");
     let bare = write("bare.mtx", "1 1 1.0\n2 2 1.0\n3 3 1.0\n");
     let error = read(&job(&k, &bare)).expect_err("rows without a name");
-    assert!(matches!(&error, Error::RowsUnnamed { path } if path == &bare), "{error}");
+    assert!(matches!(&error, Error::RowsUnnamed { path, .. } if path == &bare), "{error}");
 }
 
 /// What HBMAT writes next to a matrix, its equations in any order, and bulk data without EXTRN.
