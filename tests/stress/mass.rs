@@ -4,8 +4,9 @@ use faer::Mat;
 use supel::dense;
 use supel::error::Error;
 use supel::job::{Coupling, InterfaceJob, Origin};
+use supel::verification::check::{Check, Verdict};
 use supel_models::model::Entry;
-use supel_models::transform::{carrying, grounded, join, rounded, scaled, supported};
+use supel_models::transform::{carrying, grounded, join, rounded, scaled, supported, translated};
 use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
 
 use crate::chain::{Method, Twin, direct, reduce, rows};
@@ -363,4 +364,24 @@ fn few_digits_and_a_heavy_mass_make_no_massless_mechanism() {
             Case::new(&model, &ends).method("craig-bampton").run().unwrap_or_else(|error| panic!("refused: {error}"));
         assert_eq!(n_rigid(&found), 6, "{mass}, {digits} digits");
     }
+}
+
+/// A frame a hundred times its size away from the origin, M of six digits: nothing is left of its inertia about its centre, which is the
+/// difference of numbers ten thousand times as large. Next to the origin, and with all digits, it is known.
+#[test]
+fn ms_09_an_inertia_far_from_the_origin() {
+    let nodes = [[0.0; 3], [0.4, 0.0, 0.0], [0.4, 0.5, 0.0], [0.9, 0.5, 0.3], [0.9, 0.9, 0.7]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4]];
+    let near = frame(&nodes, &edges, &Section::round(0.05), &Material::STEEL_SI, Inertia::Consistent);
+    let far = translated(&near, [60.0, -80.0, 30.0]);
+    let verdict = |model: &Model| {
+        let found =
+            Case::new(model, &[direct("ends", &[1, 5])]).method("craig-bampton").count(4).run().expect("a result");
+        let checks = &found.report.body.checks;
+        checks.iter().find(|check| check.name == "inertia about the centre is known").map(Check::verdict)
+    };
+    let mass_of = |model: &Model, digits: usize| Model { mass: rounded(model, digits).mass, ..model.clone() };
+    assert_eq!(verdict(&mass_of(&far, 6)), Some(Verdict::Fail));
+    assert_eq!(verdict(&mass_of(&near, 6)), Some(Verdict::Pass));
+    assert_eq!(verdict(&far), Some(Verdict::Pass));
 }

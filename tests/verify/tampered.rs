@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel_models::transform::rounded;
+use supel_models::{Material, brick};
 use supel_runtime::{Matrix, Metadata, Superelement, Tensors};
 
 use crate::healthy::hinged_blocks;
@@ -293,4 +295,31 @@ fn a_file_not_sealed_again_is_an_input_error() {
     bytes[last] ^= 1;
     place.write("altered.supel", &bytes);
     supel(&["verify", &place.text("altered.supel")]).expect(ExitCode::InputData);
+}
+
+/// K of six digits lets rigid-body motion pass to a thousandth of the first elastic energy. The modes that are found again are those of
+/// the file all the same, so that an entry between interface and modes is known to many more digits.
+#[test]
+fn few_digits_hide_no_changed_entry() {
+    let place = Place::with(&rounded(&brick([4, 2, 2], [0.3, 0.2, 0.1], &Material::STEEL_SI), 6));
+    let job = "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"nodes.csv\"\ndofs = \"dofs.txt\"\n\
+               [[interface]]\nname = \"a\"\nnodes = [1, 6, 11]\ncoupling = \"rigid\"\n\
+               [[interface]]\nname = \"b\"\nnodes = [5, 10, 15]\n\
+               [reduction]\nmethod = \"herting\"\nmodes = { count = 6 }\n[write]\nsuperelement = \"x.supel\"\n";
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    let verified = |file: &str| supel(&["verify", &place.text(file), "--job", &place.text("job.toml")]);
+    verified("x.supel").expect(ExitCode::Done);
+    let original = place.superelement("x.supel");
+    let (mut tensors, metadata) = (original.tensors().clone(), original.metadata().clone());
+    let (last, mass) = (original.n_coordinates() - 1, &original.tensors().mass);
+    let size = (mass[(3, 3)] * mass[(last, last)]).sqrt();
+    tensors.mass = Matrix::from_fn(mass.rows(), mass.cols(), |i, j| {
+        mass[(i, j)] + if (i, j) == (3, last) || (i, j) == (last, 3) { 1e-3 * size } else { 0.0 }
+    });
+    let altered = Superelement::new(tensors, metadata).expect("a superelement still");
+    altered.write(&place.path("altered.supel")).expect("written");
+    let ended = verified("altered.supel");
+    assert_eq!(ended.code, ExitCode::CheckFailed, "{}{}", ended.out, ended.err);
+    assert!(ended.out.contains("mass is that of the full model"), "{}", ended.out);
 }
