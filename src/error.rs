@@ -428,14 +428,17 @@ pub enum Error {
         (`reduce --symmetric`)"
     )]
     #[error(
-        "{}: declared symmetric – found entries on both sides of the diagonal, ({}, {}) and ({}, {}) – expected one \
-        triangle – remove the other, declare the matrix general, or say which holds: model.symmetric = \"lower\" or \
-        \"upper\" (reduce --symmetric)",
+        "{}: declared {declared} – found entries on both sides of the diagonal, ({}, {}) and ({}, {}) – expected one \
+        triangle – {remedy}",
         path.display(), lower.0, lower.1, upper.0, upper.1
     )]
     DoubleTriangle {
         /// The file.
         path: PathBuf,
+        /// What the file declares.
+        declared: &'static str,
+        /// What to do.
+        remedy: &'static str,
         /// Row and column, from 1, of an entry below the diagonal.
         lower: (u64, u64),
         /// Row and column, from 1, of an entry above the diagonal.

@@ -19,7 +19,6 @@ use crate::error::{Error, Result};
 use crate::export::{ExportedFile, Joined, Names};
 use crate::input;
 use crate::number;
-use crate::regular_file::digest;
 use crate::report::{printable, value_text};
 
 pub(super) fn run(command: &ExportCommand, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
@@ -165,7 +164,9 @@ fn of_models<'a>(
 ) -> Vec<Named> {
     let digests: BTreeSet<&str> =
         superelements.into_iter().flat_map(|file| file.metadata().inputs.values()).map(String::as_str).collect();
-    let is_input = |path: &&PathBuf| path.is_file() && digest(path).is_ok_and(|found| digests.contains(found.as_str()));
+    let is_input = |path: &&PathBuf| {
+        path.is_file() && input::digest_with_included(path).is_ok_and(|found| digests.contains(found.as_str()))
+    };
     files
         .iter()
         .map(|(path, _)| path)

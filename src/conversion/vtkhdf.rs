@@ -1,7 +1,7 @@
 //! A mesh as a VTKHDF file: an `UnstructuredGrid` of version 2.0 in one part, which ParaView opens.
 //!
 //! Points have their labels in `node`, and for each group an array of its name that is one at its members and zero elsewhere. Points that no
-//! cell has get a vertex, so that they are seen.
+//! cell has get a vertex, so that they are seen. An attribute says that arrays mean this, so that the file is read again as what was written.
 
 use std::path::Path;
 
@@ -45,7 +45,10 @@ mod library {
     use hdf5_metno::{DatasetBuilderEmpty, File, Group, H5Type, Result};
 
     use crate::input::MeshInput;
+    use crate::input::hdf5::{GROUP_NAME, LABELS, MESH_OF_SUPEL};
 
+    /// The longest name of a group that is kept where its array has another one.
+    const MAX_NAME: usize = 4096;
     /// VTK's number of a vertex.
     const VERTEX: u8 = 1;
 
@@ -55,6 +58,7 @@ mod library {
         root.new_attr::<i64>().shape(2).create("Version")?.write(&[2_i64, 0])?;
         let kind = FixedAscii::<16>::from_ascii("UnstructuredGrid").map_err(|error| error.to_string())?;
         root.new_attr::<FixedAscii<16>>().create("Type")?.write_scalar(&kind)?;
+        root.new_attr::<i64>().create(MESH_OF_SUPEL)?.write_scalar(&1_i64)?;
         let Grid { connectivity, offsets, types } = Grid::of(mesh);
         let n_points = mesh.nodes.coordinates.len();
         let counts = [
@@ -76,13 +80,15 @@ mod library {
         for (name, members) in &mesh.nodes.groups {
             let mut is_member = vec![0_i8; n_points];
             members.iter().for_each(|node| is_member[*node] = 1);
-            list(&data, &array_name(name, &mut used), &is_member)?;
+            let array = array_name(name, &mut used);
+            list(&data, &array, &is_member)?;
+            if array != *name && (1..=MAX_NAME).contains(&name.len()) {
+                let attribute = data.dataset(&array)?.new_attr::<u8>().shape(name.len()).create(GROUP_NAME)?;
+                attribute.write(name.as_bytes())?;
+            }
         }
         file.flush()
     }
-
-    /// The array of labels.
-    const LABELS: &str = "node";
 
     /// The name of an array of a group: a name in HDF5 has no slash and is no dot, and no two arrays have one name.
     fn array_name(group: &str, used: &mut BTreeSet<String>) -> String {

@@ -11,8 +11,6 @@ use crate::error::{Error, Result};
 pub(super) const BLOCK_BYTES: usize = 1 << 21;
 /// The longest line. Entries and comments are far shorter; a longer one is not text.
 const MAX_LINE_BYTES: usize = 1 << 16;
-/// The byte order mark of UTF-8.
-const MARK: &[u8] = b"\xef\xbb\xbf";
 /// Blocks that may wait for the pool.
 const N_WAITING: usize = 4;
 
@@ -34,7 +32,7 @@ pub(super) enum LastLine {
 }
 
 /// Hands the text of a file to `consume` in batches of blocks, in order. Each block ends at a line end, except the
-/// last. A byte order mark is left out. At most a few blocks per thread are in memory.
+/// last. At most a few blocks per thread are in memory.
 pub(super) fn for_each_batch(
     path: &Path,
     block_bytes: usize,
@@ -85,15 +83,9 @@ fn produce(
         block
     };
     let mut block = empty();
-    let mut is_first = true;
     let mut n_lines = 0;
     loop {
-        let n_read =
-            fill(&mut source, &mut block, block_bytes.max(MARK.len())).map_err(|error| read_error(path, error))?;
-        if is_first && block.starts_with(MARK) {
-            block.drain(..MARK.len());
-        }
-        is_first = false;
+        let n_read = fill(&mut source, &mut block, block_bytes).map_err(|error| read_error(path, error))?;
         if n_read == 0 {
             let last_line = if block.is_empty() { LastLine::Terminated } else { LastLine::Open };
             // A receiver that is gone has reported its own error.

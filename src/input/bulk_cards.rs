@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use super::bulk_lines::{BulkLines, Place};
 use crate::error::Result;
-use crate::input::lines::Lines;
 
 /// How wide the fields of a line are.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ const END: usize = 72;
 
 /// The entries of bulk data of one name.
 pub(super) struct Cards<'a> {
-    lines: Lines<'a>,
+    lines: BulkLines<'a>,
     name: &'static str,
     /// The line that was read is the first one of the next entry, or of something else.
     is_ahead: bool,
@@ -40,8 +40,8 @@ pub(super) struct Cards<'a> {
 /// An entry with its fields, blanks cut off.
 pub(super) struct Card {
     pub(super) fields: Vec<Vec<u8>>,
-    /// Number of its first line.
-    pub(super) line: u64,
+    /// Where its first line is.
+    pub(super) place: Place,
 }
 
 impl Card {
@@ -58,10 +58,10 @@ impl Card {
 
 impl<'a> Cards<'a> {
     pub(super) fn open(path: &'a Path, name: &'static str) -> Result<Self> {
-        Ok(Self { lines: Lines::open(path)?, name, is_ahead: false })
+        Ok(Self { lines: BulkLines::open(path)?, name, is_ahead: false })
     }
 
-    /// The next entry of that name; none at the end of the file.
+    /// The next entry of that name; none at the end of the deck.
     pub(super) fn advance(&mut self) -> Result<Option<Card>> {
         loop {
             if !self.is_ahead && !self.lines.advance()? {
@@ -69,7 +69,7 @@ impl<'a> Cards<'a> {
             }
             self.is_ahead = false;
             let Some(fields) = first_fields(self.lines.line(), self.name) else { continue };
-            let mut card = Card { fields, line: self.lines.number() };
+            let mut card = Card { fields, place: self.lines.place() };
             while self.lines.advance()? {
                 let line = self.lines.line();
                 if line.starts_with(b"$") {
@@ -85,7 +85,7 @@ impl<'a> Cards<'a> {
         }
     }
 
-    /// BLAKE3 of the file.
+    /// BLAKE3 of the deck, with what it includes.
     pub(super) fn digest(self) -> Result<String> {
         self.lines.digest()
     }

@@ -50,6 +50,21 @@ impl Compressed {
         &self.values
     }
 
+    /// Whether an entry on the diagonal is not zero, as far as pointers and indices can be followed.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn has_diagonal(&self) -> bool {
+        self.pointers.windows(2).zip(0..).any(|(ends, major)| {
+            let [first, last] = [ends[0], ends[1]].map(|end| usize::try_from(end).unwrap_or(usize::MAX));
+            let entries = self
+                .indices
+                .get(first..last)
+                .unwrap_or_default()
+                .iter()
+                .zip(self.values.get(first..last).unwrap_or_default());
+            entries.into_iter().any(|(minor, value)| *minor == major && *value != 0.0)
+        })
+    }
+
     /// The number of rows of the matrix of this name, once shape, lengths and pointers are certain to fit together.
     pub(super) fn check(&self, path: &Path, matrix: &str) -> Result<usize> {
         let n = order(path, matrix, self.shape)? as usize;

@@ -13,13 +13,14 @@ use std::path::Path;
 
 use super::blocks::LastLine;
 use super::bulk_cards::Cards;
+use super::bulk_lines::Place;
+use super::bulk_start::is_bulk;
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
 use super::fortran::{real, whole};
 use super::labels::LabelledEntries;
 use super::named::chosen;
 use super::row_label::RowLabel;
-use super::unsupported_format::begins_as_bulk;
 use crate::error::{Error, Result};
 use crate::job::Layout;
 use crate::sparse::{Declared, Given};
@@ -35,9 +36,7 @@ pub(super) struct Dmig;
 
 impl Format for Dmig {
     fn sureness(&self, start: &FileStart<'_>) -> Sureness {
-        let first = start.lines().find(|line| !line.starts_with(b"$")).unwrap_or_default();
-        let begins = first.get(..4).is_some_and(|name| name.eq_ignore_ascii_case(b"DMIG"));
-        if begins || begins_as_bulk(start) { Sureness::Certain } else { Sureness::Unlikely }
+        if is_bulk(start) { Sureness::Certain } else { Sureness::Unlikely }
     }
 }
 
@@ -68,7 +67,7 @@ struct Head {
     name: String,
     form: i64,
     kind: i64,
-    line: u64,
+    place: Place,
 }
 
 /// The heads of a file, in order.
@@ -82,22 +81,22 @@ fn heads(path: &Path) -> Result<Vec<Head>> {
         let number = |at: usize| card.fields.get(at).and_then(|field| whole(field)).unwrap_or(0);
         let name = card.name();
         if heads.iter().any(|head| head.name == name) {
-            return Err(wrong(path, card.line, format!("a second head of {name}"), "one for each matrix"));
+            return Err(wrong(&card.place, format!("a second head of {name}"), "one for each matrix"));
         }
-        heads.push(Head { name, form: number(2), kind: number(3), line: card.line });
+        heads.push(Head { name, form: number(2), kind: number(3), place: card.place.clone() });
     }
     Ok(heads)
 }
 
-fn wrong(path: &Path, line: u64, found: String, expected: &str) -> Error {
-    let (path, place, expected) = (path.to_owned(), format!("line {line}"), expected.to_owned());
+fn wrong(place: &Place, found: String, expected: &str) -> Error {
+    let (path, place, expected) = (place.path.to_path_buf(), format!("line {}", place.line), expected.to_owned());
     Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
 }
 
 fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
     let path = source.file.as_path();
     let unread = |found: String| {
-        let (path, place) = (path.to_owned(), format!("line {}", head.line));
+        let (path, place) = (head.place.path.to_path_buf(), format!("line {}", head.place.line));
         let expected = "a real matrix (TIN 1 or 2) whose rows and columns are dofs (IFO 1, 2 or 6)";
         Err(Error::MatrixUnread { path, format: FORMAT, place, found, expected })
     };
@@ -116,7 +115,7 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
         if card.is_head() || card.name() != head.name {
             continue;
         }
-        let col = label(path, card.line, card.fields.get(1..3).unwrap_or_default())?;
+        let col = label(&card.place, card.fields.get(1..3).unwrap_or_default())?;
         if head.form == 2 {
             columns.insert(col);
         }
@@ -124,11 +123,11 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
             if entry.iter().all(|field| field.is_empty()) {
                 continue;
             }
-            let row = label(path, card.line, entry)?;
+            let row = label(&card.place, entry)?;
             let value = entry.get(2).and_then(|field| real(field));
             let Some(value) = value.filter(|value| value.is_finite()) else {
                 let found = entry.get(2).map_or_else(String::new, |field| String::from_utf8_lossy(field).into_owned());
-                return Err(wrong(path, card.line, format!("{found:?} at {row}, column {col}"), "a finite number"));
+                return Err(wrong(&card.place, format!("{found:?} at {row}, column {col}"), "a finite number"));
             };
             if head.form == 2 {
                 rows.insert(row);
@@ -141,7 +140,7 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
         return unread(format!("{} of form 2 with a column {column} that is no row, a rectangular matrix", head.name));
     }
     if entries.is_empty() {
-        return Err(wrong(path, head.line, format!("{} without entries", head.name), "its columns"));
+        return Err(wrong(&head.place, format!("{} without entries", head.name), "its columns"));
     }
     let mut read = entries.into_matrix(source, declared, (cards.digest()?, LastLine::Terminated))?;
     if head.form == 6 {
@@ -151,7 +150,7 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
 }
 
 /// A node and a component, from the first two fields.
-fn label(path: &Path, line: u64, fields: &[Vec<u8>]) -> Result<RowLabel> {
+fn label(place: &Place, fields: &[Vec<u8>]) -> Result<RowLabel> {
     let number = |at: usize| fields.get(at).filter(|field| !field.is_empty()).map(|field| whole(field));
     let node = number(0).flatten().filter(|node| *node > 0);
     let component = number(1).unwrap_or(Some(0)).and_then(|component| u8::try_from(component).ok());
@@ -160,7 +159,7 @@ fn label(path: &Path, line: u64, fields: &[Vec<u8>]) -> Result<RowLabel> {
         None => {
             let found: Vec<String> =
                 fields.iter().take(2).map(|field| String::from_utf8_lossy(field).into_owned()).collect();
-            Err(wrong(path, line, format!("{found:?}"), "a node or scalar point, and a component from 0 to 6"))
+            Err(wrong(place, format!("{found:?}"), "a node or scalar point, and a component from 0 to 6"))
         }
     }
 }

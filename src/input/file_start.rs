@@ -51,8 +51,7 @@ impl<'a> FileStart<'a> {
     /// Whether the first character that is not a blank opens a tag.
     #[cfg(feature = "hdf5")]
     pub(super) fn is_xml(&self) -> bool {
-        let text = self.head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.head);
-        text.trim_ascii_start().starts_with(b"<")
+        self.head.trim_ascii_start().starts_with(b"<")
     }
 
     pub(super) fn holds(&self, word: &[u8]) -> bool {

@@ -181,8 +181,8 @@ pub(super) struct ReadDofs {
     pub(super) n_rows: usize,
     /// How directions are numbered.
     pub(super) base: DirectionBase,
-    /// The line that gives a node directions of its own, the first of them.
-    pub(super) local_directions: Option<u64>,
+    /// File and line that give a node directions of its own, the first of them.
+    pub(super) local_directions: Option<(PathBuf, u64)>,
     /// Labels of rows that no node has, where the file has them.
     pub(super) scalars: Vec<(usize, RowLabel)>,
 }

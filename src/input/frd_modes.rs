@@ -12,7 +12,7 @@ use super::banner::excerpt;
 use super::file_start::FileStart;
 use super::fortran::{real, whole};
 use super::mesh::CellMesh;
-use super::mesh::frd::{Block, elements, nodes, raw_line};
+use super::mesh::frd::{Block, check_count, elements, nodes, raw_line};
 use super::mesh::stream::{Form, Stream};
 use super::mode_format::{ModeSource, ReadModes};
 use super::mode_matrix::NUMBER;
@@ -56,6 +56,9 @@ pub(super) fn modes(source: &ModeSource<'_>) -> Result<ReadModes> {
     let mut at = Step::default();
     while let Some(line) = stream.raw_line()? {
         let text = line.trim_ascii_start();
+        if !text.is_empty() {
+            modes.is_ended = text.starts_with(b"9999");
+        }
         match () {
             () if text.starts_with(b"2C") => nodes(&mut stream, text, &mut mesh, &claim)?,
             () if text.starts_with(b"3C") => elements(&mut stream, text, &mut mesh, &claim)?,
@@ -124,11 +127,11 @@ impl Head {
 
     /// Goes over the values.
     fn skip(&self, stream: &mut Stream) -> Result<()> {
-        self.each_node(stream, |_, _, _| Ok(()))
+        self.each_node(stream, |_, _, _| Ok(())).map(drop)
     }
 
-    /// Hands on the label of each node and its values.
-    fn each_node(&self, stream: &mut Stream, mut take: impl FnMut(&Stream, i64, &[f64]) -> Result<()>) -> Result<()> {
+    /// Hands on the label of each node and its values; the number of nodes.
+    fn each_node(&self, stream: &mut Stream, mut take: impl FnMut(&Stream, i64, &[f64]) -> Result<()>) -> Result<u64> {
         let mut values = Vec::with_capacity(self.n_written);
         let mut n_read = 0;
         loop {
@@ -145,7 +148,7 @@ impl Head {
             take(stream, label, &values)?;
         }
         stream.form = Form::Text;
-        Ok(())
+        Ok(n_read)
     }
 
     fn binary_node(&self, stream: &mut Stream, values: &mut Vec<f64>) -> Result<i64> {
@@ -208,7 +211,11 @@ fn text_node(stream: &mut Stream, (width, n): (usize, usize), values: &mut Vec<f
             let value = real(field).ok_or_else(|| stream.error(format!("`{}`", excerpt(field)), OF_VALUES))?;
             values.push(value);
         }
-        if values.len() >= n {
+        if values.len() > n {
+            return Err(stream
+                .error(format!("`{}`", excerpt(&line)), format!("{n} values of 12 characters, and nothing behind")));
+        }
+        if values.len() == n {
             return Ok(Some(label));
         }
         line = raw_line(stream, OF_VALUES)?;
@@ -260,11 +267,14 @@ struct Modes {
     /// Displacements of a mode that belong to no row, and those of them that are not zero, at most.
     n_without_row: usize,
     n_moving: usize,
+    /// Whether the last line is the one that ends a file.
+    is_ended: bool,
 }
 
 impl Modes {
     fn of(places: Places) -> Self {
-        Self { places, columns: Vec::new(), hertz: Vec::new(), step: None, digits: None, n_without_row: 0, n_moving: 0 }
+        let (columns, hertz) = (Vec::new(), Vec::new());
+        Self { places, columns, hertz, step: None, digits: None, n_without_row: 0, n_moving: 0, is_ended: false }
     }
 
     /// Reads the values of a block as the next mode.
@@ -280,7 +290,7 @@ impl Modes {
         let mut column = vec![0.0; self.places.n_rows];
         source.rows.left.iter().for_each(|(row, _)| column[*row] = f64::NAN);
         let (mut n_without_row, mut n_moving) = (0, 0);
-        block.each_node(stream, |stream, label, values| {
+        let n_read = block.each_node(stream, |stream, label, values| {
             let rows = self.places.of_node.get(&label).copied().unwrap_or_default();
             for (row, value) in rows.into_iter().zip(values) {
                 if !value.is_finite() {
@@ -297,6 +307,7 @@ impl Modes {
             }
             Ok(())
         })?;
+        check_count(stream, (n_read, block.n_nodes), "nodes with values")?;
         refuse_missing(source, &column)?;
         self.n_without_row = self.n_without_row.max(n_without_row);
         self.n_moving = self.n_moving.max(n_moving);
@@ -339,12 +350,19 @@ impl Modes {
             return Err(wrong(source, format!("no modes{of_step}"), WRITE));
         }
         Ok(ReadModes {
-            notes: self.left_out(),
+            notes: self.left_out().into_iter().chain(self.unended()).collect(),
             values: Some((ValueUnit::Hertz, self.hertz)),
             program: Some("CalculiX"),
             digits: self.digits,
             ..ReadModes::of_columns(self.columns)
         })
+    }
+
+    /// That modes may be missing behind the last one, in words.
+    fn unended(&self) -> Option<String> {
+        let note =
+            "the file has no line 9999 at its end, as CalculiX writes it: it may be cut short, and modes be missing";
+        (!self.is_ended).then(|| note.to_owned())
     }
 
     /// What belongs to no row, in words.

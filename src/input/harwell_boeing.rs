@@ -167,6 +167,10 @@ fn read<T>(
             ));
         }
         let words: Vec<&[u8]> = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
+        let rest = line.get(n_fields * fields.width..).unwrap_or_default();
+        if words.len() != n_fields && !rest.trim_ascii().is_empty() {
+            return Err(wrong(lines, &format!("{expected} in each of {n_fields} fields, and nothing behind them")));
+        }
         for at in 0..n_fields {
             // SciPy writes fields narrower than its own format says, with blanks between them.
             let field = if words.len() == n_fields { words[at] } else { fields.field(line, at) };

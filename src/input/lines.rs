@@ -1,5 +1,6 @@
 //! Text line by line, whatever its packing, with the number of each line.
 
+use std::borrow::Cow;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
@@ -11,7 +12,7 @@ const MAX_LINE_BYTES: usize = 1 << 12;
 
 /// The lines of a file.
 pub(super) struct Lines<'a> {
-    path: &'a Path,
+    path: Cow<'a, Path>,
     source: BufReader<Source>,
     number: u64,
     bytes: Vec<u8>,
@@ -19,12 +20,14 @@ pub(super) struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     /// Before the first line.
-    pub(super) fn open(path: &'a Path) -> Result<Self> {
-        Ok(Self { path, source: BufReader::with_capacity(1 << 16, Source::open(path)?), number: 0, bytes: Vec::new() })
+    pub(super) fn open(path: impl Into<Cow<'a, Path>>) -> Result<Self> {
+        let path = path.into();
+        let source = BufReader::with_capacity(1 << 16, Source::open(&path)?);
+        Ok(Self { path, source, number: 0, bytes: Vec::new() })
     }
 
     pub(super) fn path(&self) -> PathBuf {
-        self.path.to_owned()
+        self.path.clone().into_owned()
     }
 
     /// Number of the line that was read last, from 1.
@@ -50,7 +53,7 @@ impl<'a> Lines<'a> {
     pub(super) fn advance(&mut self) -> Result<bool> {
         self.bytes.clear();
         let read = self.source.by_ref().take(MAX_LINE_BYTES as u64 + 1).read_until(b'\n', &mut self.bytes);
-        let n_read = read.map_err(|error| read_error(self.path, error))?;
+        let n_read = read.map_err(|error| read_error(&self.path, error))?;
         self.number += 1;
         if n_read > MAX_LINE_BYTES {
             return Err(Error::LineTooLong { path: self.path(), line: self.number, limit: MAX_LINE_BYTES });
@@ -60,7 +63,7 @@ impl<'a> Lines<'a> {
 
     /// BLAKE3 of the file, whose rest is read.
     pub(super) fn digest(mut self) -> Result<String> {
-        std::io::copy(&mut self.source, &mut std::io::sink()).map_err(|error| read_error(self.path, error))?;
+        std::io::copy(&mut self.source, &mut std::io::sink()).map_err(|error| read_error(&self.path, error))?;
         Ok(self.source.get_ref().digest())
     }
 }

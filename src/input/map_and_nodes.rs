@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::allowance::Allowance;
+use super::bulk_lines::digest_with_included;
 use super::calculix::rebuilt;
 use super::common_rows::RowLabels;
 use super::format::{DirectionBase, ReadDofs, ReadNodes};
@@ -38,7 +39,8 @@ pub(super) fn map_and_nodes(
     let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, (digests, notes))).transpose()?;
     match (model.dofs.as_deref(), nodes, model.nodes.as_deref()) {
         (Some(path), nodes, nodes_path) => {
-            let (dofs, of_map) = unchanged(path, || Ok((read_dofs(path, n, (allowance, notes))?, digest(path)?)))?;
+            let (dofs, of_map) =
+                unchanged(path, || Ok((read_dofs(path, n, (allowance, notes))?, digest_with_included(path)?)))?;
             digests.insert("dofs", of_map);
             let Some((nodes, nodes_path)) = nodes.zip(nodes_path) else {
                 dof_map::check_repeated(path, &dofs)?;
@@ -138,7 +140,7 @@ fn read_dofs(path: &Path, n: usize, (allowance, notes): (&Allowance, &mut Vec<In
     if read.n_rows != n {
         return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });
     }
-    notes.extend(read.local_directions.map(|line| InputNote::GridDirections { path: path.to_owned(), line }));
+    notes.extend(read.local_directions.map(|(path, line)| InputNote::GridDirections { path, line }));
     if read.base == DirectionBase::Zero {
         notes.push(InputNote::DirectionsFromZero { path: path.to_owned() });
     }

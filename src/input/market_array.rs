@@ -12,8 +12,7 @@ use crate::sparse::Declared;
 
 /// Whether a file begins with the banner of an array.
 pub(super) fn begins(start: &FileStart<'_>) -> bool {
-    let text = start.head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&start.head);
-    let line = text.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let line = start.head.split(|byte| *byte == b'\n').next().unwrap_or_default();
     String::from_utf8_lossy(line).split_ascii_whitespace().nth(2).is_some_and(|word| word.eq_ignore_ascii_case("array"))
 }
 

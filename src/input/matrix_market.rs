@@ -33,8 +33,7 @@ pub(super) struct Coordinate;
 
 impl Format for MatrixMarket {
     fn sureness(&self, start: &FileStart<'_>) -> Sureness {
-        let text = start.head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&start.head);
-        let begins = text.get(..BANNER.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(BANNER));
+        let begins = start.head.get(..BANNER.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(BANNER));
         if begins { Sureness::Certain } else { Sureness::Unlikely }
     }
 }

@@ -10,6 +10,8 @@ mod assembled;
 mod banner;
 mod blocks;
 mod bulk_cards;
+mod bulk_lines;
+mod bulk_start;
 mod calculix;
 mod cell_kind;
 mod common_rows;
@@ -39,6 +41,7 @@ mod harwell_boeing;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 mod hdf5_format;
+mod inclusion;
 mod internal_forces;
 mod labels;
 mod lines;
@@ -94,6 +97,7 @@ mod xml_size;
 mod zstd;
 
 pub use allowance::Allowance;
+pub use bulk_lines::digest_with_included;
 pub use common_rows::RowLabels;
 pub use constraint_file::{Constraint, ConstraintRows};
 pub use digits::{Digits, DigitsBy, digits_of};

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
+use super::bulk_lines::included_files;
 use super::member::split_member;
 use super::model_files::{further_source, own_sources};
 use super::{formats, hdf5_format};
@@ -20,6 +21,9 @@ pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
     files.extend(model.mass.as_deref().map(|path| ("the mass", file_of(path))));
     files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
     files.extend(model.constraints.clone().map(|path| ("the constraints", path)));
+    let decks = std::iter::once(&model.stiffness).chain(&model.mass).chain(&model.dofs);
+    let included = decks.flat_map(|path| included_files(&file_of(path)));
+    files.extend(included.map(|path| ("what a deck includes", path)));
     files.extend(model.internal_forces.clone().map(|path| ("the internal forces", path)));
     if let Some(nodes) = &model.nodes {
         files.push(("the nodes", nodes.clone()));

@@ -2,15 +2,16 @@
 //! order of their labels, six for a grid point and one for a scalar point, which is the g-set.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
 use super::bulk_cards::Cards;
+use super::bulk_lines::Place;
+use super::bulk_start::is_bulk;
 use super::file_start::FileStart;
 use super::format::{DofMapFormat, Format, ReadDofs, Sureness};
 use super::fortran::whole;
 use super::row_label::RowLabel;
-use super::unsupported_format::begins_as_bulk;
 use crate::error::{Error, Result};
 
 const FORMAT: &str = "Nastran bulk data";
@@ -24,8 +25,7 @@ pub(super) struct NastranRows;
 
 impl Format for NastranRows {
     fn sureness(&self, start: &FileStart<'_>) -> Sureness {
-        let has_extern = start.lines().any(|line| line.starts_with(b"EXTRN") || line.starts_with(b"BEGIN SUPER"));
-        if has_extern || begins_as_bulk(start) { Sureness::Certain } else { Sureness::Unlikely }
+        if is_bulk(start) { Sureness::Certain } else { Sureness::Unlikely }
     }
 }
 
@@ -48,7 +48,7 @@ impl DofMapFormat for NastranRows {
 }
 
 /// The line of the first grid point whose displacements are in a coordinate system of its own, or of the GRDSET that says so for all.
-fn local_directions(path: &Path) -> Result<Option<u64>> {
+fn local_directions(path: &Path) -> Result<Option<(PathBuf, u64)>> {
     /// Where CD stands behind the name of either entry.
     const CD: usize = 5;
     for name in ["GRDSET", "GRID"] {
@@ -56,16 +56,16 @@ fn local_directions(path: &Path) -> Result<Option<u64>> {
         while let Some(card) = cards.advance()? {
             // A point in a fluid has −1.
             if card.fields.get(CD).is_some_and(|field| !matches!(field.as_slice(), b"" | b"0" | b"-1")) {
-                return Ok(Some(card.line));
+                return Ok(Some((card.place.path.to_path_buf(), card.place.line)));
             }
         }
     }
     Ok(None)
 }
 
-fn wrong(path: &Path, line: u64, found: &[u8], expected: &str) -> Error {
+fn wrong(place: &Place, found: &[u8], expected: &str) -> Error {
     let found = format!("{:?}", String::from_utf8_lossy(found));
-    let (path, place, expected) = (path.to_owned(), format!("line {line}"), expected.to_owned());
+    let (path, place, expected) = (place.path.to_path_buf(), format!("line {}", place.line), expected.to_owned());
     Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
 }
 
@@ -76,7 +76,7 @@ fn extern_rows(path: &Path) -> Result<Vec<RowLabel>> {
     while let Some(card) = cards.advance()? {
         for pair in card.fields.chunks(2).filter(|pair| pair.iter().any(|field| !field.is_empty())) {
             let node = whole(&pair[0]).filter(|node| *node > 0);
-            let node = node.ok_or_else(|| wrong(path, card.line, &pair[0], "a grid point or scalar point"))?;
+            let node = node.ok_or_else(|| wrong(&card.place, &pair[0], "a grid point or scalar point"))?;
             let components = pair.get(1).map_or(&b""[..], Vec::as_slice);
             if matches!(components, b"" | b"0") {
                 rows.push(RowLabel { node, component: 0 });
@@ -85,7 +85,7 @@ fn extern_rows(path: &Path) -> Result<Vec<RowLabel>> {
             for digit in components {
                 let component = digit.wrapping_sub(b'0');
                 if !DIRECTIONS.contains(&component) {
-                    return Err(wrong(path, card.line, components, "components from 1 to 6"));
+                    return Err(wrong(&card.place, components, "components from 1 to 6"));
                 }
                 rows.push(RowLabel { node, component });
             }
@@ -100,19 +100,19 @@ fn all_rows(path: &Path) -> Result<Vec<RowLabel>> {
     let mut cards = Cards::open(path, "GRID")?;
     while let Some(card) = cards.advance()? {
         let label = card.fields.first().map_or(&b""[..], Vec::as_slice);
-        let node = whole(label).ok_or_else(|| wrong(path, card.line, label, "the label of a grid point"))?;
+        let node = whole(label).ok_or_else(|| wrong(&card.place, label, "the label of a grid point"))?;
         is_grid.insert(node, true);
     }
     let mut cards = Cards::open(path, "SPOINT")?;
     while let Some(card) = cards.advance()? {
         let fields: Vec<&[u8]> = card.fields.iter().map(Vec::as_slice).filter(|field| !field.is_empty()).collect();
         let number =
-            |field: &[u8]| whole(field).ok_or_else(|| wrong(path, card.line, field, "the label of a scalar point"));
+            |field: &[u8]| whole(field).ok_or_else(|| wrong(&card.place, field, "the label of a scalar point"));
         match fields[..] {
             [first, word, last] if word.eq_ignore_ascii_case(b"THRU") => {
                 let (first, last) = (number(first)?, number(last)?);
                 if last.saturating_sub(first) > MAX_RANGE {
-                    return Err(wrong(path, card.line, fields[2], "a range of scalar points"));
+                    return Err(wrong(&card.place, fields[2], "a range of scalar points"));
                 }
                 is_grid.extend((first..=last).map(|point| (point, false)));
             }

@@ -196,7 +196,10 @@ impl<'a, R: Read> Array<'a, R> {
         match failure {
             Failure::Refused(error) => *error,
             Failure::Cut(n) => self.wrong(format!("the end after {n} numbers")),
-            Failure::Value(position) => self.wrong(format!("a number at {position} that cannot be kept as it is")),
+            Failure::Value(position) => {
+                let found = format!("a number at {position} that cannot be kept as it is");
+                self.not_as(found, "whole numbers that a double equals, and indices that are whole".to_owned())
+            }
             // What an archive says of its content comes this way, too.
             Failure::Read(error) if error.get_ref().is_some_and(|inner| inner.is::<rawzip::Error>()) => {
                 self.wrong(error.to_string())
@@ -206,7 +209,10 @@ impl<'a, R: Read> Array<'a, R> {
     }
 
     fn wrong(&self, found: String) -> Error {
-        let expected = format!("as many numbers as its shape {:?} says", self.header.shape);
+        self.not_as(found, format!("as many numbers as its shape {:?} says", self.header.shape))
+    }
+
+    fn not_as(&self, found: String, expected: String) -> Error {
         Error::MatrixFormat {
             path: self.path.to_owned(),
             format: self.format,

@@ -70,8 +70,8 @@ impl Kind {
             Self::F32 => Some(f64::from(f32::from_bits(bits as u32))),
             Self::F16 => Some(half_precision(bits as u16)),
             _ => {
-                let whole = self.whole(bytes, endian)?;
-                Some(whole as f64).filter(|real| *real as i128 == i128::from(whole))
+                let whole = if self == Self::U64 { i128::from(bits) } else { self.whole(bytes, endian)?.into() };
+                Some(whole as f64).filter(|real| *real as i128 == whole)
             }
         }
     }

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
+use super::bulk_lines::digest_with_included;
 use super::calculix::digests_next_to;
 use super::formats;
 use super::named_files::file_of;
 use crate::error::Result;
 use crate::job::Job;
-use crate::regular_file::digest;
 
 /// The role of the first file that another digest was recorded of than it has now, or that there is no record of; none where every file is
 /// the one that was read. `job` is one as the stages do it, `recorded` what [`InputFacts::digests`](super::InputFacts::digests) gave then.
@@ -65,6 +65,6 @@ fn files_by_role(job: &Job) -> BTreeMap<String, PathBuf> {
 fn digests(files: &BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, String>> {
     let paths: std::collections::BTreeSet<&Path> = files.values().map(PathBuf::as_path).collect();
     let of_paths: BTreeMap<&Path, String> =
-        paths.into_par_iter().map(|path| Ok((path, digest(path)?))).collect::<Result<_>>()?;
+        paths.into_par_iter().map(|path| Ok((path, digest_with_included(path)?))).collect::<Result<_>>()?;
     Ok(files.iter().map(|(role, path)| (role.clone(), of_paths[path.as_path()].clone())).collect())
 }

@@ -219,8 +219,7 @@ impl<'a> Lines<'a> {
 
     /// The line without blanks around it.
     fn text(&self) -> std::borrow::Cow<'_, str> {
-        let text = self.bytes.strip_prefix(b"\xef\xbb\xbf".as_slice()).unwrap_or(&self.bytes);
-        String::from_utf8_lossy(text.trim_ascii())
+        String::from_utf8_lossy(self.bytes.trim_ascii())
     }
 
     fn format_error(&self, expected: &'static str) -> Error {

@@ -51,10 +51,17 @@ impl Packing {
 }
 
 /// The bytes of a file, unpacked where they are packed, in one or several members.
+///
+/// A byte order mark of UTF-8 at the beginning is left out: editors put it there, and no format that is read begins with these bytes.
 pub(super) struct Source {
     stream: Stream,
     unpacked: u64,
+    /// The first bytes, as far as they have not been handed on; none before anything was read.
+    first: Option<Vec<u8>>,
 }
+
+/// The byte order mark of UTF-8.
+const MARK: &[u8] = b"\xef\xbb\xbf";
 
 enum Stream {
     Plain(Box<BufReader<DigestReader>>),
@@ -81,7 +88,7 @@ impl Source {
                 Stream::Zstd(Box::new(ZstdFrames::new(reader, window)))
             }
         };
-        Ok(Self { stream, unpacked: 0 })
+        Ok(Self { stream, unpacked: 0, first: None })
     }
 
     /// How the file is packed; none where it is not.
@@ -120,6 +127,38 @@ impl Source {
 
 impl Read for Source {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        if self.first.is_none() {
+            let mut first = Vec::with_capacity(MARK.len());
+            while first.len() < MARK.len() {
+                let mut byte = [0];
+                match self.read_on(&mut byte) {
+                    Ok(0) => break,
+                    Ok(_) => first.extend(byte),
+                    Err(error) if error.kind() == std::io::ErrorKind::Interrupted => {}
+                    Err(error) => return Err(error),
+                }
+            }
+            self.first = Some(if first == MARK { Vec::new() } else { first });
+        }
+        match &mut self.first {
+            Some(first) if !first.is_empty() => {
+                let n_first = buffer.len().min(first.len());
+                buffer[..n_first].copy_from_slice(&first[..n_first]);
+                first.drain(..n_first);
+                // Readers of binary formats look at more than these at once.
+                match self.read_on(&mut buffer[n_first..]) {
+                    Err(error) if error.kind() == std::io::ErrorKind::Interrupted => Ok(n_first),
+                    read => Ok(n_first + read?),
+                }
+            }
+            _ => self.read_on(buffer),
+        }
+    }
+}
+
+impl Source {
+    /// Reads what follows the first bytes.
+    fn read_on(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
         let (packing, read) = match &mut self.stream {
             Stream::Plain(reader) => return reader.read(buffer),
             Stream::Gzip(decoder) => (Packing::Gzip, decoder.read(buffer)),

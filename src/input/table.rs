@@ -61,7 +61,7 @@ pub(super) fn open_first_line(path: &Path, expected: &'static str) -> Result<Fir
             }
             _ => {}
         }
-        let text = bytes.strip_prefix(b"\xef\xbb\xbf".as_slice()).unwrap_or(&bytes).trim_ascii();
+        let text = bytes.trim_ascii();
         if !text.is_empty() && !text.starts_with(b"%") {
             return Ok(FirstLine { text: String::from_utf8_lossy(text).into_owned(), line, rest });
         }

@@ -1,6 +1,8 @@
 //! Files of known formats that are not read: how they are recognised, and how each can be converted.
 
+use super::bulk_start::is_bulk;
 use super::file_start::FileStart;
+use super::mesh;
 use crate::error::{Error, Result};
 use crate::regular_file::is_utf16;
 
@@ -56,8 +58,14 @@ struct Foreign {
 }
 
 /// The formats, the more particular first.
-const FORMATS: [Foreign; 12] = [
+const FORMATS: [Foreign; 14] = [
     Foreign { begins: |start| is_utf16(&start.head), found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
+    Foreign {
+        begins: |start| start.packing.is_some() && start.head.starts_with(b"PK"),
+        found: "a packed archive (.npz or .zip)",
+        for_matrix: "unpack it",
+        for_table: "unpack it",
+    },
     Foreign {
         begins: |start| start.head.starts_with(b"PK") && start.holds(b".npy"),
         found: "a NumPy archive (.npz)",
@@ -95,11 +103,12 @@ const FORMATS: [Foreign; 12] = [
         for_table: AS_TABLE,
     },
     Foreign {
-        begins: |start| start.lines().next().is_some_and(|line| line.starts_with(b"$MeshFormat")),
-        found: "a Gmsh mesh (.msh)",
-        for_matrix: NO_MATRIX,
-        for_table: AS_NODES,
+        begins: begins_as_matlab4,
+        found: "a MATLAB file of level 4 (.mat)",
+        for_matrix: "save it again by `save -v7` of MATLAB, `save -v6` of Octave or `scipy.io.savemat`",
+        for_table: AS_TABLE,
     },
+    Foreign { begins: mesh::begins_as_gmsh, found: "a Gmsh mesh (.msh)", for_matrix: NO_MATRIX, for_table: AS_NODES },
     Foreign {
         begins: |start| start.head.starts_with(b"    1C"),
         found: "a CalculiX result file (.frd)",
@@ -119,7 +128,7 @@ const FORMATS: [Foreign; 12] = [
         for_table: "convert it by `adf2hdf`",
     },
     Foreign {
-        begins: begins_as_bulk,
+        begins: is_bulk,
         found: "a Nastran deck (.bdf)",
         for_matrix: "have the program write its matrices (DMIG or OP4)",
         for_table: "take the nodes by `meshio convert deck.bdf mesh.xdmf`",
@@ -140,22 +149,24 @@ pub(super) fn refuse(start: &FileStart<'_>, wanted: Wanted) -> Result<()> {
     }
 }
 
+/// Five numbers of four bytes, the kind of the array, its rows, its columns, whether it is complex and the length of its name, and that name
+/// with a zero at its end.
+fn begins_as_matlab4(start: &FileStart<'_>) -> bool {
+    let number = |at: usize, of_bytes: fn([u8; 4]) -> u32| {
+        start.head.get(4 * at..).and_then(|rest| rest.first_chunk()).map_or(u32::MAX, |bytes| of_bytes(*bytes))
+    };
+    // The first digit tells the order of bytes, the third the type of the numbers, the last whether they are a matrix, text or sparse.
+    [(0, u32::from_le_bytes as fn([u8; 4]) -> u32), (1, u32::from_be_bytes)].into_iter().any(|(order, of_bytes)| {
+        let [kind, rows, columns, complex, length] = [0, 1, 2, 3, 4].map(|at| number(at, of_bytes));
+        let is_kind = kind / 1000 == order && kind / 100 % 10 == 0 && kind / 10 % 10 <= 5 && kind % 10 <= 2;
+        let name = start.head.get(20..20 + length.min(64) as usize).unwrap_or_default();
+        let is_name = matches!(name, [first, .., 0] if first.is_ascii_alphabetic());
+        is_kind && rows.max(columns) <= i32::MAX as u32 && complex <= 1 && is_name
+    })
+}
+
 /// A keyword after one asterisk, below comments of two: no matrix, map or table begins so.
 fn begins_as_deck(start: &FileStart<'_>) -> bool {
     let line = start.lines().find(|line| !line.starts_with(b"**"));
     line.is_some_and(|line| line.len() > 1 && line[0] == b'*' && line[1].is_ascii_alphabetic())
-}
-
-/// A section of a Nastran deck or its first card, below comments of a dollar.
-pub(super) fn begins_as_bulk(start: &FileStart<'_>) -> bool {
-    const SECTIONS: [&[u8]; 5] = [b"SOL ", b"CEND", b"BEGIN BULK", b"BEGIN SUPER", b"SEBULK"];
-    let line = start.lines().find(|line| !line.starts_with(b"$")).unwrap_or_default().to_ascii_uppercase();
-    SECTIONS.iter().any(|word| line.starts_with(word)) || line.strip_prefix(b"GRID").is_some_and(is_rest_of_card)
-}
-
-/// What follows the name of a card that has a number first; a column of a table may have the name of a card.
-fn is_rest_of_card(rest: &[u8]) -> bool {
-    let field = rest.strip_prefix(b"*").unwrap_or(rest);
-    let field = field.strip_prefix(b",").unwrap_or(field).trim_ascii_start();
-    field.first().is_some_and(u8::is_ascii_digit)
 }

@@ -122,7 +122,15 @@ impl TripletBlocks {
         if matches!(declared, Declared::Symmetric | Declared::Skew) && given != Given::OneTriangle {
             let (lower, upper) = (self.first_where(|row, col| row > col), self.first_where(|row, col| row < col));
             if let (Some(lower), Some(upper)) = (lower, upper) {
-                return Err(Error::DoubleTriangle { path: path.to_owned(), lower, upper });
+                let (declared, remedy) = match declared {
+                    Declared::Skew => ("skew-symmetric", "remove the other, or declare the matrix general"),
+                    _ => (
+                        "symmetric",
+                        "remove the other, declare the matrix general, or say which holds: model.symmetric = \"lower\" or \"upper\" \
+                         (reduce --symmetric)",
+                    ),
+                };
+                return Err(Error::DoubleTriangle { path: path.to_owned(), declared, remedy, lower, upper });
             }
         }
         if declared == Declared::Skew

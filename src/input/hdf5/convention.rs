@@ -18,6 +18,17 @@ pub(super) enum Convention {
     Named(NamedParts),
 }
 
+/// What a file says of its entries next to where they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Told {
+    /// Whether rows or columns are compressed.
+    Columns,
+    /// Nothing.
+    Nothing,
+    /// In a text, which is not read, whether rows or columns are compressed, and whether one triangle stands for both.
+    InText,
+}
+
 /// Names of the parts of compressed columns or rows, one dataset each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NamedParts {
@@ -61,12 +72,12 @@ impl Convention {
         Ok(Some(if has("shape") { Self::ShapeAttribute("shape") } else { Self::ShapeDataset }))
     }
 
-    /// Whether a file of this convention says if rows or columns are compressed.
-    pub(super) fn tells_rows_from_columns(self) -> bool {
+    /// What a file of this convention says of its entries.
+    pub(super) fn tells(self) -> Told {
         match self {
-            Self::Matlab => true,
-            Self::Named(parts) => parts.tells_columns,
-            Self::ShapeAttribute(_) | Self::ShapeDataset => false,
+            Self::Named(parts) if !parts.tells_columns => Told::InText,
+            Self::Matlab | Self::Named(_) => Told::Columns,
+            Self::ShapeAttribute(_) | Self::ShapeDataset => Told::Nothing,
         }
     }
 

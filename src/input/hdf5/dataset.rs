@@ -45,6 +45,11 @@ impl<'a> Dataset<'a> {
         Ok(self.dataset.space().map_err(|e| self.read_error(&e))?.shape())
     }
 
+    /// The whole numbers of an attribute; none where it is absent.
+    pub(super) fn integer_list_attribute(&self, name: &str) -> Result<Option<Vec<i64>>> {
+        attribute::integers(self.h5, &self.dataset, &self.name, name)
+    }
+
     /// A whole-number attribute with one value.
     pub(super) fn integer_attribute(&self, name: &str) -> Result<Option<i64>> {
         let values = attribute::integers(self.h5, &self.dataset, &self.name, name)?;

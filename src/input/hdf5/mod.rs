@@ -47,3 +47,4 @@ pub(in crate::input) use patch_cells::read_cells;
 pub(crate) use patch_cells::read_faces;
 pub use sparse::read_matrix;
 pub(crate) use sparse::read_matrix_within;
+pub(crate) use vtkhdf::{GROUP_NAME, LABELS, MESH_OF_SUPEL};

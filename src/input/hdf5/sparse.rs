@@ -4,7 +4,7 @@ use std::path::Path;
 
 use supel_runtime::Symmetry;
 
-use super::convention::Convention;
+use super::convention::{Convention, Told};
 use super::dataset::Dataset;
 use super::file::{H5, with_memory};
 use super::nastran;
@@ -18,7 +18,7 @@ use crate::input::hdf5::group::Group;
 use crate::input::unsupported_format::{self, Wanted};
 use crate::input::{Allowance, MatrixInput, MatrixRole, digits_of};
 use crate::regular_file::digest;
-use crate::sparse::{ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
+use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
 
 /// Reads a square sparse matrix from an HDF5 file: MATLAB v7.3 and PETSc (`MATLAB_sparse`, `jc`, `ir`, `data`), anndata,
 /// h5sparse, Exudyn, Octave, Julia, Binsparse, the tables of MSC Nastran, or plain `data`, `indices`, `indptr`.
@@ -56,20 +56,21 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
     let found = match nastran::tables(&root)? {
         Some(tables) => {
             let (compressed, name) = nastran::read(&tables, group, role)?;
-            Found { compressed, name, digits: u32::MAX, tells_rows_from_columns: true }
+            Found { compressed, name, digits: u32::MAX, told: Told::Columns }
         }
         None => match group.map(|name| root.find_dense(name)).transpose()?.flatten() {
             Some(dataset) => Found::dense(&dataset)?,
             None => Found::in_groups(root, group, role)?,
         },
     };
-    let Found { compressed, name, digits, tells_rows_from_columns } = found;
+    let declared = found.declared(role);
+    let Found { compressed, name, digits, told } = found;
     let digits = digits_of(compressed.values()).at_most(digits);
     let n = compressed.check(h5.path(), &name)?;
     h5.hold((TRIPLET_BYTES + ENTRY_BYTES) * compressed.values().len() as u64 + ROW_BYTES * n as u64)?;
-    let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, role.undeclared(), h5.path())?;
+    let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, declared, h5.path())?;
     // It would be another matrix with its rows taken for columns; a reduced one is symmetric to rounding, or judged for that.
-    let is_ambiguous = role.takes_any() && role != MatrixRole::Reduced && !tells_rows_from_columns;
+    let is_ambiguous = role.takes_any() && role != MatrixRole::Reduced && told != Told::Columns;
     if is_ambiguous && first_breach(&matrix, Symmetry::Symmetric).is_some() {
         return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: name });
     }
@@ -83,7 +84,7 @@ struct Found {
     name: String,
     /// Digits that its values have room for.
     digits: u32,
-    tells_rows_from_columns: bool,
+    told: Told,
 }
 
 impl Found {
@@ -107,7 +108,7 @@ impl Found {
         let sizes = [n_rows as u64, n_columns as u64];
         let names = [name.clone(), name.clone(), name.clone()];
         let compressed = Compressed::new(Major::Rows, sizes, pointers, indices, entries, names);
-        Ok(Self { compressed, name, digits, tells_rows_from_columns: false })
+        Ok(Self { compressed, name, digits, told: Told::Nothing })
     }
 
     /// The matrix of a group, by the conventions of the programs that write one.
@@ -119,7 +120,13 @@ impl Found {
             None => find_matrix(start, role)?,
         };
         let (compressed, digits) = convention.read(&group)?;
-        let (name, tells_rows_from_columns) = (group.name().to_owned(), convention.tells_rows_from_columns());
-        Ok(Self { compressed, name, digits, tells_rows_from_columns })
+        Ok(Self { compressed, name: group.name().to_owned(), digits, told: convention.tells() })
+    }
+
+    /// What its entries stand for. A triangle with a diagonal is half of a symmetric matrix where the text that says so is not read: a skew
+    /// one has no diagonal.
+    fn declared(&self, role: MatrixRole) -> Declared {
+        let may_be_half = role == MatrixRole::Conversion && self.told == Told::InText && self.compressed.has_diagonal();
+        if may_be_half { Declared::General } else { role.undeclared() }
     }
 }

@@ -1,5 +1,6 @@
 //! VTKHDF: an unstructured grid in one or several parts; of a series in time the first step.
 
+use super::attribute;
 use super::attribute_groups::tags_of;
 use super::group::Group;
 use super::mesh::Mesh;
@@ -10,12 +11,43 @@ use crate::input::mesh::CellMesh;
 use crate::input::mesh::vtk::{Piece, Pieces, Tags};
 
 const ROOT: &str = "VTKHDF";
+/// The attribute of a mesh that supel wrote: labels are in the array [`LABELS`], and every other one is a group.
+pub(crate) const MESH_OF_SUPEL: &str = "SupelMesh";
+/// The attribute of an array that has another name than its group: the bytes of that.
+pub(crate) const GROUP_NAME: &str = "SupelGroup";
+/// The array of labels in such a mesh.
+pub(crate) const LABELS: &str = "node";
 
-/// Reads points and the groups that arrays of whole numbers make.
+/// Reads points and the groups that arrays of whole numbers make; of a mesh that supel wrote its labels and groups.
 pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
     let CellMesh { nodes, .. } = grid(root)?;
-    let source = format!("/{ROOT}/Points");
-    Ok(Mesh { labels: None, coordinates: nodes.coordinates, source, groups: nodes.groups })
+    let group = root.group(ROOT)?;
+    let is_own = attribute::integers(root.h5(), group.location(), group.name(), MESH_OF_SUPEL)?.is_some();
+    let mut tags = if is_own { tags_of(group.find_group("PointData")?)? } else { Tags::new() };
+    match tags.remove(LABELS) {
+        Some(labels) => {
+            let labels = Some((labels, format!("/{ROOT}/PointData/{LABELS}")));
+            let (coordinates, source) = (nodes.coordinates, format!("/{ROOT}/Points"));
+            let data = group.group("PointData")?;
+            let named = |(array, marks): (String, Vec<i64>)| {
+                let name = data.dataset(&array)?.integer_list_attribute(GROUP_NAME)?;
+                let name = name.and_then(|bytes| bytes.iter().map(|byte| u8::try_from(*byte).ok()).collect());
+                let name = name.and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or(array);
+                Ok((name, members(&marks, coordinates.len())))
+            };
+            let groups = tags.into_iter().map(named).collect::<Result<_>>()?;
+            Ok(Mesh { labels, coordinates, source, groups })
+        }
+        None => {
+            let source = format!("/{ROOT}/Points");
+            Ok(Mesh { labels: None, coordinates: nodes.coordinates, source, groups: nodes.groups })
+        }
+    }
+}
+
+/// The nodes that a mark other than zero makes members of a group.
+fn members(marks: &[i64], n_nodes: usize) -> Vec<usize> {
+    marks.iter().take(n_nodes).enumerate().filter(|(_, mark)| **mark != 0).map(|(node, _)| node).collect()
 }
 
 pub(super) fn read_cells(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> {

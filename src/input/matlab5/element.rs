@@ -112,12 +112,16 @@ impl Array {
         Ok(Self { name, class, shape: [size(0), size(1)], n_dimensions: dimensions.len(), flags })
     }
 
-    /// Whether it can be a matrix of a model: of two dimensions, no single number.
+    /// Whether it can be a matrix of a model: numbers of two dimensions, as many rows as columns.
     pub(super) fn is_matrix(&self) -> bool {
         let is_numbers = !matches!(self.class, Class::Other(_));
-        // Vectors and single numbers lie next to matrices in most files.
-        let is_square = self.shape[0] == self.shape[1] && (self.shape[0] > 1 || self.class == Class::Sparse);
+        let is_square = self.shape[0] == self.shape[1] && (self.shape[0] > 0 || self.class == Class::Sparse);
         is_numbers && self.n_dimensions == 2 && is_square
+    }
+
+    /// Whether it is one number, as they lie next to matrices in most files.
+    pub(super) fn is_single(&self) -> bool {
+        self.shape == [1, 1] && self.class != Class::Sparse
     }
 
     /// Whether it is one struct, whose fields follow.

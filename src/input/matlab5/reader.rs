@@ -7,7 +7,7 @@ use crate::input::assembled::Collector;
 use crate::input::compressed::{Compressed, Major, order};
 use crate::input::file_start::FileStart;
 use crate::input::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
-use crate::input::named::chosen;
+use crate::input::named::{chosen, role_stated_by};
 use crate::job::Layout;
 
 const EXPECTED: &str = "real matrices, sparse or of numbers, at the top level of the file or in a struct";
@@ -32,9 +32,12 @@ impl MatrixFormat for Matlab5 {
 
     fn read(&self, source: &MatrixSource<'_>) -> Result<ReadMatrix> {
         let path = source.file.as_path();
-        let (mut names, mut others, mut position) = (Vec::new(), Vec::new(), 0);
+        let (mut names, mut singles, mut others, mut position) = (Vec::new(), Vec::new(), Vec::new(), 0);
         walk(path, |array, _| {
             match array.unread() {
+                None if array.is_matrix() && array.is_single() && !is_meant(source, &array.name) => {
+                    singles.push((position, array.name.clone()));
+                }
                 None if array.is_matrix() => names.push((position, array.name.clone())),
                 Some(why) if source.member.as_deref() == Some(&array.name) => return Err(unread(source, array, why)),
                 _ => others.push(format!("{} ({})", array.name, array.class.name())),
@@ -42,6 +45,8 @@ impl MatrixFormat for Matlab5 {
             position += 1;
             Ok(Step::Skip)
         })?;
+        // A model of one row has no larger matrix.
+        let names = if names.is_empty() { singles } else { names };
         if names.is_empty() {
             return Err(Error::MatrixNone { path: path.to_owned(), format: FORMAT, holds: others, expected: EXPECTED });
         }
@@ -58,6 +63,12 @@ impl MatrixFormat for Matlab5 {
         })?;
         found.ok_or_else(|| Error::Changed { path: path.to_owned() })
     }
+}
+
+/// Whether the name of a single number is the one that is wanted, or says that it is a matrix of a model.
+fn is_meant(source: &MatrixSource<'_>, name: &str) -> bool {
+    let is_wanted = source.member.as_deref().is_some_and(|wanted| wanted.eq_ignore_ascii_case(name));
+    is_wanted || role_stated_by(name).is_some()
 }
 
 fn unread(source: &MatrixSource<'_>, array: &Array, found: &str) -> Error {

@@ -116,7 +116,15 @@ pub(in crate::input) fn nodes(stream: &mut Stream, line: &[u8], mesh: &mut CellM
         at += 1;
     }
     stream.form = Form::Text;
-    Ok(())
+    check_count(stream, (at, n), "nodes")
+}
+
+/// Makes sure that a block has as many items as its head says. Some programs write none there.
+pub(in crate::input) fn check_count(stream: &Stream, (found, stated): (u64, u64), items: &str) -> Result<()> {
+    if found == stated || stated == 0 {
+        return Ok(());
+    }
+    Err(stream.error(format!("{found} {items}"), format!("{stated}, as the head of the block says")))
 }
 
 fn node_of_line(stream: &Stream, line: &[u8], width: usize) -> Result<(i64, [f64; 3])> {
@@ -130,7 +138,8 @@ fn node_of_line(stream: &Stream, line: &[u8], width: usize) -> Result<(i64, [f64
         let field = field(3 + width + axis * COORDINATE, COORDINATE).unwrap_or_default();
         *coordinate = fortran::real(field).filter(|value| value.is_finite()).ok_or_else(wrong)?;
     }
-    Ok((label, point))
+    let rest = line.get(3 + width + 3 * COORDINATE..).unwrap_or_default();
+    if rest.trim_ascii().is_empty() { Ok((label, point)) } else { Err(wrong()) }
 }
 
 fn binary_node(stream: &mut Stream, block: Block) -> Result<(i64, [f64; 3])> {

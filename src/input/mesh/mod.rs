@@ -16,4 +16,5 @@ pub(super) mod vtk;
 pub(super) use cell_mesh::CellMesh;
 #[cfg(feature = "hdf5")]
 pub(super) use cell_mesh::named_apart;
+pub(super) use gmsh::begins as begins_as_gmsh;
 pub(super) use mesh_file::{DECK, FRD, GMSH, VTK, VTU};

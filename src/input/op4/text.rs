@@ -16,6 +16,7 @@ use crate::error::{Error, Result};
 use crate::input::banner::excerpt;
 use crate::input::fortran::{Fields, real, whole};
 use crate::input::lines::Lines;
+use crate::number::counted;
 
 /// Fields of a matrix whose head does not say.
 const USUAL: Fields = Fields { per_line: 5, width: 16 };
@@ -132,12 +133,30 @@ impl<'a> File<'a> {
         Ok(())
     }
 
+    /// Refuses a line that goes on behind its fields, of which there are so many at most: one of its numbers is wider than a field.
+    fn refuse_wider(&self, n_left: u64) -> Result<()> {
+        let n_fields = n_left.min(self.fields.per_line as u64) as usize;
+        let rest = self.lines.line().get(n_fields * self.fields.width..).unwrap_or_default();
+        if rest.trim_ascii().is_empty() {
+            return Ok(());
+        }
+        let width = self.fields.width;
+        let fields = counted(n_fields, "field", "fields");
+        Err(self.error(&format!(
+            "{fields} of {width} characters and nothing behind – a number is wider than its field, as negative ones with exponents of three \
+             digits are: write the matrix in binary"
+        )))
+    }
+
     /// Hands the next numbers to `take`, each with its position.
     fn numbers(&mut self, n: u64, mut take: impl FnMut(u64, f64) -> Result<()>) -> Result<()> {
         for position in 0..n {
             let at = (position % self.fields.per_line as u64) as usize;
-            if at == 0 && !self.lines.advance()? {
-                return Err(self.error("numbers"));
+            if at == 0 {
+                if !self.lines.advance()? {
+                    return Err(self.error("numbers"));
+                }
+                self.refuse_wider(n - position)?;
             }
             match real(self.fields.field(self.lines.line(), at)) {
                 Some(number) => take(position, number)?,

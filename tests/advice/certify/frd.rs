@@ -239,6 +239,26 @@ fn what_is_no_mode_of_the_rows_is_refused_by_its_reason() {
     }
 }
 
+/// Blocks with another number of nodes than they say, numbers wider than their columns, and files without their last line.
+#[test]
+fn what_is_missing_is_noticed() {
+    let whole = read_text(small().as_bytes()).expect("two modes");
+    assert_eq!(whole.notes.iter().filter(|note| note.contains("9999")).count(), 0, "{:?}", whole.notes);
+    let cut = small().replace(" 9999\n", "");
+    let cut = read_text(cut.as_bytes()).expect("two modes");
+    assert!(cut.notes.iter().any(|note| note.contains("no line 9999")), "{:?}", cut.notes);
+    let first = small().rfind("    1PSTEP").map(|at| small()[..at].to_owned()).expect("two modes");
+    let first = read_text(first.as_bytes()).expect("one mode");
+    assert!(first.notes.iter().any(|note| note.contains("modes be missing")), "{:?}", first.notes);
+    let wide = small().replace(&number(1.0), "-1.00000E-110");
+    let error = read_text(wide.as_bytes()).expect_err("a number of thirteen characters");
+    assert!(matches!(error, Error::MeshText { .. }), "{error}");
+    let line = small().lines().find(|line| line.starts_with("  100CL")).expect("a head").to_owned();
+    let more = line.replacen("           2", "           7", 1);
+    let error = read_text(small().replace(&line, &more).as_bytes()).expect_err("seven nodes");
+    assert!(error.to_string().contains("7, as the head of the block says"), "{error}");
+}
+
 /// Without a dof map nothing says where a displacement belongs, and a rotation is in no result file.
 #[test]
 fn rows_that_are_no_displacements_are_refused() {

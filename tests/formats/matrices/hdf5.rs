@@ -1,7 +1,7 @@
 //! Conventions of HDF5 that other programs wrote, and what Octave wrote in either of its MATLAB formats.
 
 use supel::error::Error;
-use supel::input::read;
+use supel::input::{Allowance, SingleMatrix, read};
 
 use super::{fixture, job, pair, stiffness};
 
@@ -23,6 +23,38 @@ fn files_of_octave() {
         assert_eq!((k.get(0, 1), k.get(1, 2), k.get(2, 2)), (Some(&(-1.0 / 3.0)), Some(&-0.5), Some(&4.0)), "{name}");
         assert_eq!(m.get(0, 0), Some(&(1.0 / 7.0)), "{name}");
     }
+}
+
+/// Binsparse says in a text, which is not read, that a triangle is half of a symmetric matrix.
+#[test]
+fn a_triangle_of_binsparse_is_mirrored_for_conversion_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("k.h5");
+    let write = |pointers: &[i64], indices: &[i64], values: &[f64]| {
+        let file = hdf5_metno::File::create(&path).expect("a file");
+        let group = file.create_group("K").expect("a group");
+        let list = |name: &str, numbers: &[i64]| {
+            let dataset = group.new_dataset::<i64>().shape(numbers.len()).create(name);
+            dataset.and_then(|dataset| dataset.write_raw(numbers)).expect("numbers");
+        };
+        list("pointers_to_1", pointers);
+        list("indices_1", indices);
+        let dataset = group.new_dataset::<f64>().shape(values.len()).create("values").expect("a dataset");
+        dataset.write_raw(values).expect("numbers");
+    };
+    let read = || {
+        let matrix = SingleMatrix { file: path.with_file_name("k.h5:/K"), layout: None, dofs: None };
+        matrix.read(&Allowance::of(None))
+    };
+    write(&[0, 1, 3], &[0, 0, 1], &[2.0, -1.0, 3.0]);
+    let lower = read().expect("half of a matrix");
+    assert_eq!(lower.input.matrix.get(0, 1), Some(&-1.0));
+    let told = lower.notes.iter().map(ToString::to_string).collect::<String>() + &format!("{:?}", lower.input.notes);
+    assert!(told.contains("OneTriangle"), "{told}");
+    // Without a diagonal it may be half of a skew one.
+    write(&[0, 0, 1], &[0], &[-1.0]);
+    let error = read().expect_err("no diagonal");
+    assert!(matches!(error, Error::Hdf5Orientation { .. }), "{error}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod damage;
 mod halves;
 #[cfg(feature = "hdf5")]
 mod hdf5;
+mod nastran;
 #[cfg(feature = "hdf5")]
 mod oracle;
 mod reading;

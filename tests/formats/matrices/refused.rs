@@ -98,6 +98,28 @@ fn op4_of_other_kinds() {
     assert_says(&error_of("a.op4", damaged), "E-MATRIX-FORMAT", &["line 3", "a number in field 1"]);
 }
 
+/// `%23.16E` needs 24 characters for a negative number with an exponent of three digits: what it is cut to is another number.
+#[test]
+fn numbers_wider_than_their_fields() {
+    let op4 = |number: &str| {
+        format!(
+            "       3      -3       6       2KAA     1P,3E23.16\n       1       0       8\n       3       1\n\
+             2.0000000000000000E+00\n       3       3\n{number}\n       2       0       4\n       3       2\n\
+             3.0000000000000000E+00\n       3       0       4\n       3       3\n4.0000000000000000E+00\n       4       1       1\n1.0\n"
+        )
+    };
+    assert_says(
+        &error_of("a.op4", op4("-1.4999999999999999E-110")),
+        "E-MATRIX-FORMAT",
+        &["line 6", "23 characters", "E-110"],
+    );
+    let kept = error_of("a.op4", op4("-1.4999999999999999E-99"));
+    assert!(kept.code() != "E-MATRIX-FORMAT", "{kept}");
+    let boeing = "a\n 3 1 1 1\nRSA           2 2 2 0\n(3I4)           (2I4)           (2E12.5)            \n   1   2   3\n   1   2\n";
+    let error = error_of("a.rsa", format!("{boeing}-1.50000E+00-1.50000E-110\n"));
+    assert_says(&error, "E-MATRIX-FORMAT", &["line 7", "nothing behind"]);
+}
+
 #[test]
 fn harwell_boeing_of_other_kinds() {
     for (letters, words) in
@@ -144,6 +166,85 @@ fn whole_numbers_that_no_double_equals() {
     assert_eq!(read(of_boeing(kept, "integer")).expect("kept"), Some(9_007_199_254_740_994.0));
     assert_says(&read(of_boeing(lost, "integer")).expect_err("no double"), "E-MATRIX-FORMAT", &[lost, "up to 2^53"]);
     assert_eq!(read(of_boeing(lost, "real")).expect("real"), Some(-9_007_199_254_740_992.0));
+}
+
+/// MATLAB level 4, single numbers of level 5, and what is packed twice.
+#[test]
+fn arrays_of_matlab_and_archives() {
+    let level4 = |order: [u8; 4], one: [u8; 4]| {
+        [&order[..], &one, &one, &[0; 4], &one.map(|byte| 2 * byte), b"K\0", &[0; 8]].concat()
+    };
+    for content in [level4([0; 4], [1, 0, 0, 0]), level4([0, 0, 3, 232], [0, 0, 0, 1])] {
+        assert_says(&error_of("a.mat", content), "E-FORMAT", &["a.mat", "MATLAB file of level 4", "-v7"]);
+    }
+    let archive = std::fs::read(fixture("k_csr.npz")).expect("a fixture");
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
+    let packed = std::io::Write::write_all(&mut encoder, &archive).and_then(|()| encoder.finish()).expect("packed");
+    assert_says(&error_of("a.npz.gz", packed), "E-FORMAT", &["a packed archive", "unpack it"]);
+    let array = |name: u8, numbers: &[f64]| {
+        let n = (numbers.len() as f64).sqrt() as u32;
+        let words = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+        let values: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let parts =
+            [words(&[6, 8, 6, 0, 5, 8, n, n, 0x1_0001]), vec![name, 0, 0, 0], words(&[9, values.len() as u32]), values];
+        let content = parts.concat();
+        [words(&[14, content.len() as u32]), content].concat()
+    };
+    let head = [&[b' '; 124][..], &[0, 1, b'I', b'M']].concat();
+    let folder = tempfile::tempdir().expect("a folder");
+    let read = |arrays: &[Vec<u8>], member: &str| {
+        let path = folder.path().join("a.mat");
+        std::fs::write(&path, [head.clone(), arrays.concat()].concat()).expect("written");
+        let file = folder.path().join(format!("a.mat{member}"));
+        let matrix = supel::input::SingleMatrix { file, layout: None, dofs: None };
+        matrix.read(&supel::input::Allowance::of(None)).map(|read| read.input.matrix.get(0, 0).copied())
+    };
+    let (one, four) = (array(b'K', &[5.0]), array(b'M', &[1.0, 0.0, 0.0, 1.0]));
+    assert_eq!(read(std::slice::from_ref(&one), ":K").expect("one row"), Some(5.0));
+    assert_eq!(read(&[array(b'A', &[5.0])], "").expect("one row"), Some(5.0));
+    assert_says(&read(&[one.clone(), four.clone()], "").expect_err("two"), "E-MATRIX-AMBIGUOUS", &["K, M"]);
+    // A number next to a matrix is none, unless it is asked for.
+    assert_eq!(read(&[array(b't', &[5.0]), four.clone()], "").expect("the only matrix"), Some(1.0));
+    assert_eq!(read(&[array(b't', &[5.0]), four], ":t").expect("the number"), Some(5.0));
+}
+
+/// The largest numbers of 64 bits that doubles equal, and one that none does.
+#[test]
+fn whole_numbers_of_arrays() {
+    let npy = |descr: &str, number: [u8; 8]| {
+        let header = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': (1, 1), }}");
+        [&b"\x93NUMPY\x01\0"[..], &(header.len() as u16).to_le_bytes(), header.as_bytes(), &number].concat()
+    };
+    let read = |content: Vec<u8>| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("k.npy");
+        std::fs::write(&path, content).expect("written");
+        let matrix = supel::input::SingleMatrix { file: path, layout: None, dofs: None };
+        matrix.read(&supel::input::Allowance::of(None)).map(|read| read.input.matrix.get(0, 0).copied())
+    };
+    let large = (1_u64 << 63) + 4096;
+    assert_eq!(read(npy("<u8", large.to_le_bytes())).expect("a double"), Some(9_223_372_036_854_779_904.0));
+    assert_eq!(read(npy("<i8", i64::MIN.to_le_bytes())).expect("a double"), Some(-9_223_372_036_854_775_808.0));
+    for number in [large + 1, u64::MAX] {
+        let error = read(npy("<u8", number.to_le_bytes())).expect_err("no double");
+        assert_says(&error, "E-MATRIX-FORMAT", &["cannot be kept as it is", "that a double equals"]);
+    }
+}
+
+/// Both halves of a matrix that is declared skew-symmetric.
+#[test]
+fn skew_matrices_with_both_halves() {
+    let error = error_of_single("%%MatrixMarket matrix coordinate real skew-symmetric\n2 2 2\n2 1 -1\n1 2 1\n");
+    assert_says(&error, "E-DOUBLE-TRIANGLE", &["declared skew-symmetric", "declare the matrix general"]);
+    assert!(!error.to_string().contains("--symmetric"), "{error}");
+}
+
+fn error_of_single(text: &str) -> Error {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("g.mtx");
+    std::fs::write(&path, text).expect("written");
+    let matrix = supel::input::SingleMatrix { file: path, layout: None, dofs: None };
+    matrix.read(&supel::input::Allowance::of(None)).expect_err("refused")
 }
 
 /// The diagonal of a skew-symmetric matrix is nothing.

@@ -79,6 +79,8 @@ fn wrong_meshes_are_refused_with_their_place() {
         let Error::MeshText { line, .. } = error else { panic!("{error:?}") };
         assert!(line == wanted && error.to_string().contains(words), "{line}: {error}");
     }
+    let commented = format!("\u{feff}$Comments\nhello $Nodes\n$EndComments\n{head}2 1 0 0\n$EndNodes\n");
+    assert_eq!(read_text("a.msh", commented).expect("a mesh").labels, [1, 2]);
     let other = refused("a.msh", "$MeshFormat\n4 0 8\n$EndMeshFormat\n");
     assert!(other.to_string().contains("version 4 of the format"), "{other}");
     assert!(matches!(refused("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"), Error::NoData { .. }));

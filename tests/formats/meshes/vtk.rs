@@ -1,5 +1,8 @@
 //! Meshes of VTK, and groups from whole numbers at points and cells as meshio writes them.
 
+use std::io::Write;
+
+use base64::Engine;
 use supel::error::Error;
 use supel::input::Faces;
 
@@ -108,5 +111,93 @@ fn wrong_grids_are_refused() {
     for (grid, words) in cases {
         let error = refused("a.vtu", &grid);
         assert!(error.to_string().contains(words), "{error}");
+    }
+}
+
+/// Arrays of XML in every form that VTK writes: base64 in place or in one block behind the grid, the default, packed or not.
+#[test]
+fn arrays_in_base64_follow_each_other() {
+    let encode = |bytes: &[u8]| base64::engine::general_purpose::STANDARD.encode(bytes);
+    let packed = |bytes: &[u8]| {
+        let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::default());
+        encoder.write_all(bytes).and_then(|()| encoder.finish()).expect("packed")
+    };
+    let reals: Vec<u8> = [0.0f64, 0.0, 0.0, 1.0, 0.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let [points, ends] =
+        [[0i64, 1].as_slice(), &[2]].map(|n| n.iter().flat_map(|n| n.to_le_bytes()).collect::<Vec<u8>>());
+    let arrays = [
+        (reals, "Float64"),
+        (points, "Int64"),
+        (ends, "Int64"),
+        (vec![3], "UInt8"),
+        (vec![4, 5], "UInt8"),
+        (vec![], "Int8"),
+    ];
+    let forms =
+        [4, 8].into_iter().flat_map(|header| ["", "vtkZLibDataCompressor"].map(|compressor| (header, compressor)));
+    let forms = forms.flat_map(|form| [(form, "joined"), (form, "apart")]);
+    for ((header, compressor), heads) in forms {
+        for is_appended in [true, false] {
+            let number = |n: usize| (n as u64).to_le_bytes()[..header].to_vec();
+            let coded = |bytes: &[u8]| match (compressor, heads) {
+                ("", "joined") => encode(&[number(bytes.len()), bytes.to_vec()].concat()),
+                ("", _) => encode(&number(bytes.len())) + &encode(bytes),
+                _ => {
+                    let packed = packed(bytes);
+                    let sizes = [1, bytes.len(), bytes.len(), packed.len()].map(number);
+                    encode(&sizes.concat()) + &encode(&packed)
+                }
+            };
+            let mut block = String::new();
+            let mut array = |at: usize, name: &str| {
+                let (bytes, kind) = &arrays[at];
+                let (offset, text) = (block.len(), coded(bytes));
+                let head = format!("<DataArray type=\"{kind}\" Name=\"{name}\"");
+                if is_appended {
+                    block += &text;
+                    format!("{head} format=\"appended\" offset=\"{offset}\"/>")
+                } else {
+                    format!("{head} format=\"binary\">\n {text}\n</DataArray>")
+                }
+            };
+            let grid = grid_of_two_points(header, compressor, &mut array);
+            let grid = if compressor.is_empty() { grid.replace(" compressor=\"\"", "") } else { grid };
+            let grid = format!("{grid}<AppendedData encoding=\"base64\">\n_{block}\n</AppendedData></VTKFile>");
+            let form = format!("{header} {compressor} {heads} {is_appended}");
+            let nodes = read_text("a.vtu", &grid).unwrap_or_else(|error| panic!("{form}: {error}"));
+            assert_eq!(nodes.coordinates, [[0.0; 3], [1.0, 0.0, 0.0]], "{form}");
+            assert_eq!((group(&nodes, "side 4"), group(&nodes, "side 5")), (vec![1], vec![2]), "{form}");
+        }
+    }
+}
+
+/// A grid of two points, a line between them, and marks; `array` gives the element of an array by its number and name.
+fn grid_of_two_points(header: usize, compressor: &str, array: &mut impl FnMut(usize, &str) -> String) -> String {
+    let [side, nothing, points] = [(4, "side"), (5, "nothing"), (0, "Points")].map(|(at, name)| array(at, name));
+    let cells = [(1, "connectivity"), (2, "offsets"), (3, "types")].map(|(at, name)| array(at, name)).concat();
+    format!(
+        "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt{}\" compressor=\"{compressor}\"><UnstructuredGrid>\
+         <Piece NumberOfPoints=\"2\" NumberOfCells=\"1\"><PointData>{side}{nothing}</PointData><Points>{points}</Points>\
+         <Cells>{cells}</Cells></Piece></UnstructuredGrid>",
+        8 * header
+    )
+}
+
+/// A piece that has other points or cells than it says is not whole.
+#[test]
+fn pieces_have_what_they_say() {
+    let piece = |points: &str, cells: &str| {
+        format!(
+            "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\"><Points>\
+             <DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0</DataArray></Points><Cells/></Piece></UnstructuredGrid></VTKFile>"
+        )
+    };
+    assert_eq!(read_text("a.vtu", piece("1", "0")).expect("a mesh").coordinates, [[0.0; 3]]);
+    for (grid, words) in [
+        (piece("9000000000", "0"), "NumberOfPoints=\"9000000000\" and 1 of them"),
+        (piece("1", "2"), "NumberOfCells=\"2\" and 0 of them"),
+    ] {
+        let error = refused("a.vtu", grid);
+        assert!(matches!(error, Error::MeshText { .. }) && error.to_string().contains(words), "{error}");
     }
 }

@@ -2,21 +2,17 @@
 
 use std::collections::HashSet;
 use std::io::{BufRead, BufReader, Read};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use super::keyword::Keyword;
 use crate::error::{Error, Result};
 use crate::input::banner::excerpt;
+use crate::input::inclusion::included_file;
 use crate::input::source::{Source, read_error};
-use crate::linked;
 use crate::regular_file::digest_of_list;
 
 /// The longest line, with the lines that continue a keyword.
 const MAX_LINE_BYTES: usize = 1 << 16;
-/// Files that are open at once, each included by the one before.
-const MAX_DEPTH: usize = 16;
-/// Inclusions of one deck.
-const MAX_INCLUSIONS: usize = 1 << 10;
 
 /// Where a line is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -129,10 +125,7 @@ impl DeckLines {
             let reference = excerpt(reference.as_bytes());
             Error::DeckInclude { path: path.clone(), line, reference, reason }
         };
-        let file = inside_folder(&self.files[0], reference).map_err(refuse)?;
-        if self.open.len() >= MAX_DEPTH || self.files.len() > MAX_INCLUSIONS {
-            return Err(refuse("one file too many: files may include each other 16 deep and a thousand times"));
-        }
+        let file = included_file(&self.files[0], reference, (self.open.len(), self.files.len())).map_err(refuse)?;
         let text = BufReader::new(Source::open(&file)?);
         self.open.push(Open { file: self.files.len() as u32, text, line: 0 });
         self.files.push(file);
@@ -171,9 +164,6 @@ impl DeckLines {
                     self.digests.push(digest);
                 }
                 continue;
-            }
-            if open.line == 1 && kept == 0 && self.line.starts_with(b"\xef\xbb\xbf") {
-                self.line.drain(..3);
             }
             let text = self.line[kept.min(self.line.len())..].trim_ascii();
             if text.is_empty() || text.starts_with(b"**") {
@@ -214,25 +204,4 @@ pub(in crate::input::mesh) fn digest_of_included(path: &Path) -> Result<Option<S
 pub(super) fn included_by(keyword: &Keyword) -> Option<&str> {
     let may = matches!(keyword.name.as_str(), "INCLUDE" | "NODE" | "ELEMENT" | "NSET" | "ELSET" | "SURFACE");
     if may { keyword.value("INPUT") } else { None }
-}
-
-/// The file that a deck names, where it lies in the deck's folder or below, links followed.
-fn inside_folder(deck: &Path, reference: &str) -> Result<PathBuf, &'static str> {
-    let name = Path::new(reference);
-    let is_inside = name.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    if !is_inside || reference.contains(['\\', ':']) {
-        return Err("which is outside its folder");
-    }
-    let folders = [Some(linked::named_folder(deck).to_owned()), linked::own_folder(deck)];
-    let mut reason = "which is not there";
-    for folder in folders.into_iter().flatten() {
-        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
-        let file = folder.join(name);
-        let (Ok(real), Ok(real_folder)) = (file.canonicalize(), folder.canonicalize()) else { continue };
-        if real.starts_with(real_folder) {
-            return Ok(file);
-        }
-        reason = "a link to a file outside its folder";
-    }
-    Err(reason)
 }

@@ -6,4 +6,5 @@ mod element_kind;
 mod entities;
 mod read;
 
+pub(in crate::input) use read::begins;
 pub(super) use read::{read, sureness};

@@ -27,8 +27,12 @@ const ITEMS_PER_CLAIM: usize = 1 << 10;
 
 /// Whether a file is a mesh of Gmsh.
 pub(in crate::input::mesh) fn sureness(start: &FileStart<'_>) -> Sureness {
-    let begins = start.lines().next().is_some_and(|line| line.starts_with(b"$MeshFormat"));
-    if begins { Sureness::Certain } else { Sureness::Unlikely }
+    if begins(start) { Sureness::Certain } else { Sureness::Unlikely }
+}
+
+/// Whether a file begins with the format of a mesh, or with comments, which may stand before it.
+pub(in crate::input) fn begins(start: &FileStart<'_>) -> bool {
+    start.lines().next().is_some_and(|line| line.starts_with(b"$MeshFormat") || line.starts_with(b"$Comments"))
 }
 
 /// A version that is read.
@@ -41,7 +45,10 @@ enum Version {
 /// `$MeshFormat`: version, form and size of numbers.
 fn mesh_format(stream: &mut Stream) -> Result<Version> {
     const EXPECTED: &str = "the version, 0 or 1 for text or binary, and the size of a number";
-    stream.next_line("$MeshFormat")?;
+    while stream.next_line("$MeshFormat")? == b"$Comments" {
+        stream.skip_past(b"$EndComments")?;
+        stream.rest_of_line()?;
+    }
     let line = stream.next_line(EXPECTED)?;
     let text = String::from_utf8_lossy(&line);
     let words: Vec<&str> = text.split_ascii_whitespace().collect();

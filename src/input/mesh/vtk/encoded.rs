@@ -27,26 +27,32 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 impl Encoding<'_> {
-    /// The bytes of an array from base64.
+    /// The bytes of an array from base64, which other arrays may follow. Head and data are padded one by one, or without a compressor together.
     pub(super) fn of_base64(self, text: &[u8]) -> Result<Vec<u8>, String> {
-        let text: Vec<u8> = text.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect();
+        let characters = |from: usize, n: usize| -> Vec<u8> {
+            text.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).skip(from).take(n).collect()
+        };
         if self.compressor.is_none() {
-            let head = decoded(text.get(..self.header.div_ceil(3) * 4).unwrap_or(&text))?;
+            let in_head = base64_length(self.header)?;
+            let head_text = characters(0, in_head);
+            let head = decoded(&head_text)?;
             let n_bytes = self.number(&head, 0)?;
-            // Head and data are one piece, or two.
-            let all = decoded(&text).or_else(|_| {
-                let rest = text.get(self.header.div_ceil(3) * 4..).unwrap_or_default();
-                Ok::<_, String>([&head[..self.header], &decoded(rest)?].concat())
-            })?;
-            return self.plain(&all, n_bytes);
+            let padding = head_text.iter().rev().take_while(|byte| **byte == b'=').count();
+            if padding == 3 * in_head / 4 - self.header {
+                let data = decoded(&characters(in_head, base64_length(n_bytes)?))?;
+                return self.plain(&[&head[..self.header], &data].concat(), n_bytes);
+            }
+            let n_all = n_bytes.checked_add(self.header).ok_or("a size that is too large")?;
+            return self.plain(&decoded(&characters(0, base64_length(n_all)?))?, n_bytes);
         }
-        let first = decoded(text.get(..(3 * self.header).div_ceil(3) * 4).unwrap_or(&text))?;
-        let n_blocks = self.number(&first, 0)?;
+        let n_blocks = self.number(&decoded(&characters(0, base64_length(3 * self.header)?))?, 0)?;
         let head_bytes = n_blocks.checked_add(3).and_then(|n| n.checked_mul(self.header)).ok_or("too many blocks")?;
-        let head_text = head_bytes.div_ceil(3).checked_mul(4).filter(|length| *length <= text.len());
-        let head_text = head_text.ok_or_else(|| format!("{n_blocks} blocks"))?;
-        let head = decoded(&text[..head_text])?;
-        self.unpacked(&head, &decoded(&text[head_text..])?)
+        let in_head = Some(base64_length(head_bytes)?).filter(|length| *length <= text.len());
+        let in_head = in_head.ok_or_else(|| format!("{n_blocks} blocks"))?;
+        let head = decoded(&characters(0, in_head))?;
+        let sizes = (0..n_blocks).map(|block| self.number(&head, 3 + block));
+        let n_packed = sizes.sum::<Result<usize, String>>()?;
+        self.unpacked(&head, &decoded(&characters(in_head, base64_length(n_packed)?))?)
     }
 
     /// The bytes of an array from bytes, which go on behind it.
@@ -99,6 +105,11 @@ impl Encoding<'_> {
         };
         usize::try_from(value).map_err(|_| format!("a size of {value} bytes"))
     }
+}
+
+/// Characters that stand for so many bytes, with their padding.
+fn base64_length(n_bytes: usize) -> Result<usize, String> {
+    n_bytes.div_ceil(3).checked_mul(4).ok_or_else(|| format!("a size of {n_bytes} bytes"))
 }
 
 fn decoded(text: &[u8]) -> Result<Vec<u8>, String> {

@@ -132,9 +132,22 @@ impl Reader<'_> {
                 _ => {}
             }
         }
+        self.check_count(node, "NumberOfPoints", piece.points.len() / 3)?;
+        self.check_count(node, "NumberOfCells", piece.types.len())?;
         piece.point_tags = self.tags(child("PointData"))?;
         piece.cell_tags = self.tags(child("CellData"))?;
         Ok(piece)
+    }
+
+    /// Makes sure that a piece has as many points or cells as it says, where it says so.
+    fn check_count(&self, node: Node<'_, '_>, attribute: &str, n: usize) -> Result<()> {
+        match node.attribute(attribute) {
+            Some(stated) if stated.trim().parse() != Ok(n) => {
+                let found = format!("{attribute}=\"{}\" and {n} of them", excerpt(stated.as_bytes()));
+                Err(self.error(node, found, "as many as the piece says"))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The arrays of whole numbers, one for each item.

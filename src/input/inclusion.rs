@@ -1,0 +1,48 @@
+//! Files that a deck includes: where they may lie, and how many there may be.
+
+use std::path::{Component, Path, PathBuf};
+
+use crate::linked;
+
+/// Files that are open at once, each included by the one before.
+const MAX_DEPTH: usize = 16;
+/// Inclusions of one deck.
+const MAX_INCLUSIONS: usize = 1 << 10;
+
+/// The file that a deck includes by the name `reference`, where it lies in the deck's folder or below, links followed. `n_open` files are
+/// open, and `n_files` were opened so far, the deck among them.
+///
+/// # Errors
+/// Why the file is not read, in words.
+pub(super) fn included_file(
+    deck: &Path,
+    reference: &str,
+    (n_open, n_files): (usize, usize),
+) -> Result<PathBuf, &'static str> {
+    let file = inside_folder(deck, reference)?;
+    if n_open >= MAX_DEPTH || n_files > MAX_INCLUSIONS {
+        return Err("one file too many: files may include each other 16 deep and a thousand times");
+    }
+    Ok(file)
+}
+
+/// The file of a name, where it lies in the deck's folder or below.
+fn inside_folder(deck: &Path, reference: &str) -> Result<PathBuf, &'static str> {
+    let name = Path::new(reference);
+    let is_inside = name.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    if !is_inside || reference.contains(['\\', ':']) {
+        return Err("which is outside its folder");
+    }
+    let folders = [Some(linked::named_folder(deck).to_owned()), linked::own_folder(deck)];
+    let mut reason = "which is not there";
+    for folder in folders.into_iter().flatten() {
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        let file = folder.join(name);
+        let (Ok(real), Ok(real_folder)) = (file.canonicalize(), folder.canonicalize()) else { continue };
+        if real.starts_with(real_folder) {
+            return Ok(file);
+        }
+        reason = "a link to a file outside its folder";
+    }
+    Err(reason)
+}

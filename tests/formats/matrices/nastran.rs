@@ -1,0 +1,125 @@
+//! Decks of Nastran: how they are recognised, what they include, and where they end.
+
+use std::path::{Path, PathBuf};
+
+use supel::error::{Error, Result};
+use supel::input::{Allowance, ReadSingle, SingleMatrix, digest_with_included};
+
+/// K = [2 −1; −1 3] at one grid point: its head, its first column and its second one.
+const HEAD: &str = "DMIG,K,0,6,2,0\nDMIG,K,1,1,,1,1,2.0\n";
+const SECOND: &str = "DMIG,K,1,2,,1,2,3.\n,1,1,-1.\n";
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&path, content).expect("written");
+        path
+    }
+}
+
+fn read(file: &Path, dofs: Option<&Path>) -> Result<ReadSingle> {
+    let matrix = SingleMatrix { file: file.to_owned(), layout: None, dofs: dofs.map(Path::to_owned) };
+    matrix.read(&Allowance::of(None))
+}
+
+#[track_caller]
+fn assert_whole(deck: &Path) {
+    let read = read(deck, None).unwrap_or_else(|error| panic!("{error}"));
+    let entries = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(row, col)| read.input.matrix.get(row, col).copied());
+    assert_eq!(entries, [2.0, -1.0, -1.0, 3.0].map(Some), "{:?}", std::fs::read_to_string(deck));
+}
+
+#[test]
+fn decks_are_recognised_by_what_they_begin_with() {
+    let folder = Folder::new();
+    for begin in [
+        "",
+        "$ a comment\n\n",
+        "\u{feff}",
+        "ASSIGN OUTPUT4='part.op4', UNIT=51, FORM=UNFORMATTED, DELETE\nSOL 103\nCEND\nBEGIN BULK\n",
+        "NASTRAN SYSTEM(1)=2\nSOL 103\nCEND\nBEGIN BULK\n",
+        "INIT MASTER(S)\nSOL 103\nCEND\nBEGIN BULK\n",
+        "ID A,B\nTIME 600\nSOL 103\nCEND\nTITLE = A\nBEGIN BULK\n",
+        "SOL 103\nCEND\nBEGIN BULK\n",
+        "BEGIN BULK\n",
+        "PARAM,POST,-1\n",
+        "GRDSET,,,,,,,456\n",
+        "SPOINT,10,11\n",
+        "CORD2R,1\n",
+        "MAT1    1       2.1+11          .3\n",
+        &"$ nothing but a comment, for longer than formats are recognised by\n".repeat(100),
+    ] {
+        assert_whole(&folder.write("deck.bdf", format!("{begin}{HEAD}{SECOND}ENDDATA\n")));
+    }
+}
+
+#[test]
+fn decks_go_on_in_the_files_that_they_include() {
+    let folder = Folder::new();
+    folder.write("parts/second.bdf", SECOND);
+    folder.write("nested.bdf", "include \"parts/second.bdf\" $ behind\n");
+    let plain = folder.write("plain.bdf", format!("{HEAD}{SECOND}"));
+    for include in [
+        "INCLUDE 'parts/second.bdf'\n",
+        "INCLUDE 'parts/\n         second.bdf'\n",
+        "INCLUDE parts/second.bdf\n",
+        "INCLUDE 'nested.bdf'\n",
+    ] {
+        let deck = folder.write("deck.bdf", format!("{HEAD}{include}ENDDATA\n"));
+        assert_whole(&deck);
+        let before = digest_with_included(&deck).expect("a digest");
+        assert_eq!(before, read(&deck, None).expect("a matrix").input.digest);
+        folder.write("parts/second.bdf", SECOND.replace("3.", "4."));
+        assert_ne!(before, digest_with_included(&deck).expect("a digest"), "what is included counts");
+        folder.write("parts/second.bdf", SECOND);
+    }
+    assert_eq!(
+        digest_with_included(&plain).expect("a digest"),
+        blake3::hash(&std::fs::read(&plain).expect("a file")).to_hex().as_str()
+    );
+    // The rows of a deck, of which one grid point is in another file.
+    folder.write("grids.bdf", "GRID,9,,0.,0.,0.,7\n");
+    let rows = folder.write("rows.bdf", "GRID,1,,0.,0.,0.\nINCLUDE 'grids.bdf'\nENDDATA\nGRID,5,,0.,0.,0.\n");
+    let dofs = read(&plain, Some(&rows)).expect("rows of two grid points").dofs.expect("a dof map");
+    assert_eq!(dofs.iter().flatten().map(|dof| dof.node).collect::<Vec<_>>(), [[1; 6], [9; 6]].concat());
+}
+
+#[test]
+fn no_deck_includes_a_file_outside_its_folder_or_itself() {
+    let folder = Folder::new();
+    folder.write("second.bdf", SECOND);
+    for (reference, words) in [
+        ("../second.bdf", "outside its folder"),
+        ("LOGICAL:second.bdf", "outside its folder"),
+        ("absent.bdf", "which is not there"),
+        ("deck.bdf", "16 deep"),
+    ] {
+        let deck = folder.write("decks/deck.bdf", format!("BEGIN BULK\n$\nINCLUDE '{reference}'\n{HEAD}"));
+        let error = read(&deck, None).err().unwrap_or_else(|| panic!("{reference} was read"));
+        assert!(matches!(error, Error::DeckInclude { line: 3, .. }), "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    }
+    // A fault is told where it is.
+    folder.write("decks/part.bdf", "$\nDMIG,K,1,2,,1,2,x\n");
+    let deck = folder.write("decks/deck.bdf", format!("{HEAD}INCLUDE 'part.bdf'\n"));
+    let error = read(&deck, None).expect_err("no number").to_string();
+    assert!(error.contains("part.bdf") && error.contains("line 2"), "{error}");
+}
+
+/// Nastran reads nothing behind ENDDATA.
+#[test]
+fn decks_end_at_enddata() {
+    let folder = Folder::new();
+    for end in ["ENDDATA", "enddata", "  ENDDATA $ the end"] {
+        assert_whole(&folder.write("deck.bdf", format!("{HEAD}{SECOND}{end}\nDMIG,K,1,2,,1,2,77.\n")));
+    }
+    folder.write("end.bdf", format!("{SECOND}ENDDATA\n"));
+    assert_whole(&folder.write("deck.bdf", format!("{HEAD}INCLUDE 'end.bdf'\nDMIG,K,1,2,,1,2,77.\n")));
+}
