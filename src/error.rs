@@ -1848,12 +1848,6 @@ pub enum Error {
         /// Share of the rows of M whose entries of one direction add up to nothing.
         in_mass: f64,
     },
-    /// The stiffness matrix is zero.
-    #[entry("E-NO-STIFFNESS", InputData, "give the stiffness matrix")]
-    #[error(
-        "the stiffness matrix is zero – found no entry other than zero – expected a stiffness – give the stiffness matrix of the model"
-    )]
-    NoStiffness,
     /// The mass matrix is zero.
     #[entry("E-NO-MASS", InputData, "give the mass matrix")]
     #[error(

@@ -9,7 +9,7 @@ use super::rigid_motion::is_nearly_unit;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::partition::Partition;
 use crate::verification;
-use crate::verification::check::{Check, Limits};
+use crate::verification::check::{Check, Limits, Verdict};
 
 /// M-16: ÛᵀM̂Û against the rigid-body mass of the full model.
 pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {
@@ -86,9 +86,11 @@ pub(super) fn of_a_body(content: &Content<'_>) -> Option<Check> {
     mass_of_unit_motions(content).map(|m_f| verification::of_a_body(m_f.as_ref(), 0.0))
 }
 
-/// M-16: the inertia of what Û moves is one that a body can have.
+/// M-16: the inertia of what Û moves is one that a body can have, where it moves one.
 pub(super) fn of_inertia(content: &Content<'_>) -> Option<Check> {
-    verification::of_inertia(mass_of_unit_motions(content)?.as_ref(), 0.0)
+    let m_f = mass_of_unit_motions(content)?;
+    let is_body = verification::of_a_body(m_f.as_ref(), 0.0).verdict() != Verdict::Fail;
+    is_body.then(|| verification::of_inertia(m_f.as_ref(), 0.0)).flatten()
 }
 
 /// The radius of gyration: the length that a shift of the centre is compared with.

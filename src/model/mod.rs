@@ -302,9 +302,6 @@ fn check_diagonals(
     let n = stiffness.rows();
     let (k_diag, m_diag) = (diagonal(stiffness), diagonal(mass));
     let m_max = m_diag.iter().fold(0.0f64, |max, m| max.max(m.abs()));
-    if stiffness.data().iter().all(|k| *k == 0.0) {
-        return Err(Error::NoStiffness);
-    }
     if m_max == 0.0 && mass.data().iter().all(|m| *m == 0.0) {
         return Err(Error::NoMass);
     }

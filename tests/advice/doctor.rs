@@ -160,7 +160,7 @@ fn rows_of_conditions_are_told() {
     model.stiffness.retain(|(i, j, _)| i == j || !is_of_condition(*i) && !is_of_condition(*j));
     model.stiffness.iter_mut().filter(|(i, ..)| is_of_condition(*i)).for_each(|(.., value)| *value = 1.0);
     let place = Place::with(&model);
-    for flags in [ALL, ""] {
+    for flags in [ALL, "K.mtx M.mtx"] {
         let found = examined(&place, flags, ExitCode::Done);
         let all = findings(&found);
         let (_, told) =

@@ -91,15 +91,6 @@ fn stiffness_and_mass_exchanged() {
 }
 
 #[test]
-fn stiffness_of_zeros() {
-    for model in [scaled(&cube(), 0.0, 1.0), models::Model { stiffness: Vec::new(), ..cube() }] {
-        let error = refused(&model);
-        assert!(matches!(error, Error::NoStiffness), "{error}");
-        assert_says(&error, ErrorClass::InputData, &["stiffness", "give the stiffness matrix"]);
-    }
-}
-
-#[test]
 fn mass_of_zeros() {
     for model in [scaled(&cube(), 1.0, 0.0), models::Model { mass: Vec::new(), ..cube() }] {
         let error = refused(&model);

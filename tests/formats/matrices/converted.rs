@@ -77,7 +77,7 @@ fn names_and_rows_are_carried() {
     assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
     assert!(String::from_utf8_lossy(&ended.stdout).contains("(dmig): 6 rows, 22 entries, symmetric"));
     assert!(std::fs::read_to_string(&out).expect("written").contains("K2PP    1P,3E24.16"));
-    assert_eq!(std::fs::read_to_string(&map).expect("written"), "node,dof\n1,ux\n1,uy\n1,uz\n7,ux\n7,uy\n,scalar\n");
+    assert_eq!(std::fs::read_to_string(&map).expect("written"), "node,dof\n1,ux\n1,uy\n1,uz\n7,ux\n7,uy\n20,scalar\n");
     let bare = folder.path().join("bare.npz");
     let ended = supel(&["convert", text(&out), text(&bare), "--write-dofs", text(&map)]);
     assert_eq!(ended.status.code(), Some(3), "{}", String::from_utf8_lossy(&ended.stderr));
