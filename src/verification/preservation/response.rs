@@ -110,19 +110,28 @@ pub(super) fn compared<'a>(
     let (measured, loads) = match loaded {
         // Internal loads are those of the space that the response was found in.
         Some(own) => {
-            let (measured, extended) = task.measured(&samples::with_resonances)?;
+            let (measured, extended) = task.measured(First::AllResonances)?;
             let loads = FullLoads::new(own, extended, &measured.full.samples_hz, eta)?;
             (measured, Some(loads))
         }
         None => {
             let cache = evidence.partition.cache().filter(|_| evidence.factor.storage() == Storage::Double);
-            let make = || task.measured(&|_, _, samples| samples.to_vec()).map(|(measured, _)| measured);
+            let make = || task.measured(First::SpreadResonances).map(|(measured, _)| measured);
             (recalled(cache, || task.key(), make)?, None)
         }
     };
     let report = task.report(&measured);
     let Measured { full, uncertainty, .. } = measured;
     Ok(Compared { report, full: Full { response: full, loads }, uncertainty })
+}
+
+/// Resonances among the samples that a comparison starts from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum First {
+    /// Evenly spread ones, where there are many.
+    SpreadResonances,
+    /// All of the reduced model, for its internal loads.
+    AllResonances,
 }
 
 /// What is compared.
@@ -134,18 +143,17 @@ struct Task<'t> {
 }
 
 impl<'t> Task<'t> {
-    /// The response of the full model at samples where the reduced one errs most, with the space that it was found in. `first` are the
-    /// samples it starts from, made of those of [`samples::first`].
+    /// The response of the full model at samples where the reduced one errs most, with the space that it was found in.
     ///
     /// # Errors
     /// A pencil that is not definite.
-    fn measured(
-        &self,
-        first: &dyn Fn(&Evidence<'_>, &Spectral, &[f64]) -> Vec<f64>,
-    ) -> Result<(Measured, Extended<'t>)> {
+    fn measured(&self, first: First) -> Result<(Measured, Extended<'t>)> {
         let Self { evidence, reduced, band_hz, eta } = *self;
         let mut extended = Extended::new(evidence, evidence.factor, eta)?;
-        let mut samples_hz = first(evidence, reduced, &samples::first(evidence, reduced, band_hz));
+        let mut samples_hz = samples::first(evidence, reduced, band_hz);
+        if first == First::AllResonances {
+            samples_hz = samples::with_resonances(evidence, reduced, &samples_hz);
+        }
         let mut residuals = extended.settle(&samples_hz)?;
         let mut full = FullResponse::new(&extended, &samples_hz, eta);
         let (mut worst, mut at) = full.worst(evidence, reduced);
