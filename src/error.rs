@@ -2728,6 +2728,8 @@ pub enum Error {
     RotationsHeld {
         /// The rotations.
         rotations: String,
+        /// What `model.held_rotations` calls them.
+        directions: Vec<crate::dofs::Direction>,
         /// Zero modes of K.
         n_zero: usize,
         /// Largest Rayleigh quotient of a rotation over the first elastic eigenvalue.

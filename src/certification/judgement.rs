@@ -212,8 +212,7 @@ impl Context<'_> {
         let shape_hz = self.hertz(lambda);
         let of_cluster = found.cluster.map(|cluster| nearest(truth.lambda, truth.clusters[cluster].clone(), lambda));
         let own_bar = 0.5 * (residual_bar + measured.errors[claim].data_bar) * shape_hz.abs();
-        let bar_of =
-            |mode: usize| 0.5 * truth.completed.modes.errors[mode].relative_bar * self.hertz(truth.lambda[mode]);
+        let bar_of = |mode: usize| truth.completed.modes.errors[mode].bar_of(self.hertz(truth.lambda[mode]));
         // Of a shape that is an eigenvector its own quotient is known best.
         let (mode, mode_bar) = match found.kind {
             PairKind::Mode => (Some(lambda), Some(own_bar)),
@@ -284,7 +283,7 @@ impl Context<'_> {
             }
             for mode in cluster.end - n_lacking..cluster.end {
                 let frequency_hz = self.hertz(lambda[mode]);
-                let error_bar_hz = 0.5 * completed.modes.errors[mode].relative_bar * frequency_hz;
+                let error_bar_hz = completed.modes.errors[mode].bar_of(frequency_hz);
                 missing.push(MissingMode { frequency_hz, error_bar_hz, of_frequency: [cluster.len(), n_taken] });
             }
         }

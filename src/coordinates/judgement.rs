@@ -5,6 +5,7 @@ use super::free::Free;
 use super::mended::mended;
 use super::motions::{AXES, Motions};
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
+use crate::dofs::Direction;
 use crate::error::{Error, ErrorClass, Result};
 use crate::model::{CoordinateFit, Misfit};
 use crate::number::quantity;
@@ -129,8 +130,9 @@ impl Case<'_> {
             if cost.energy <= SOFTLY_HELD {
                 return Ok(CoordinateFit::Exact);
             }
+            let directions = rotations.iter().map(|motion| Direction::ALL[*motion]).collect();
             let (rotations, n_zero) = (named(&rotations), zeros.count());
-            return Err(Error::RotationsHeld { rotations, n_zero, energy: cost.energy, dof: at });
+            return Err(Error::RotationsHeld { rotations, directions, n_zero, energy: cost.energy, dof: at });
         }
         Err(self.misfit(zeros, &rotations, Cost { expected, ..cost }, at))
     }

@@ -32,6 +32,13 @@ pub struct ModeError {
     pub zero_level: f64,
 }
 
+impl ModeError {
+    /// The error bar of a frequency, in its unit: half of what it is of λ.
+    pub fn bar_of(&self, frequency: f64) -> f64 {
+        0.5 * self.relative_bar * frequency
+    }
+}
+
 /// Relative error bar of a frequency that is worth a look: what a modal test resolves, the limit of M-09.
 pub const NOTICED_BAR: f64 = 1e-4;
 

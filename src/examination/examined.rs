@@ -114,13 +114,12 @@ impl Examined {
     }
 }
 
-/// Rows with a stiffness of their own that are coupled with no other one, next to rows that are.
+/// Rows with a stiffness and a mass of their own that are coupled with no other one, next to rows that are. A note of the model has those
+/// without mass.
 fn apart(partition: &Partition) -> Option<Finding> {
     let stiffness = partition.pencil().stiffness;
-    let is_apart = |row: &usize| {
-        let mut entries = stiffness.entries(*row).filter(|(_, value)| *value != 0.0).peekable();
-        entries.peek().is_some() && entries.all(|(other, _)| other == *row)
-    };
+    let [own_stiffness, own_mass] = [&partition.stiffness, &partition.mass].map(diagonal);
+    let is_apart = |row: &usize| own_stiffness[*row] != 0.0 && own_mass[*row] > 0.0 && stiffness.is_diagonal_row(*row);
     let rows: Vec<usize> = (0..stiffness.rows()).filter(is_apart).collect();
     let first = rows.first().filter(|_| rows.len() < stiffness.rows())?;
     Some(Finding {

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::dofs::Direction;
 use crate::error::{Error, Warning};
 use crate::verification::catalogue;
 use crate::verification::check::Check;
@@ -100,18 +101,14 @@ fn lines_of(error: &Error) -> Vec<String> {
             &["constraints_to_ground = \"accept\" # [model] of the job, or --constraints-to-ground accept"]
         }
         Error::DigitsTooFew { .. } => &["stiffness_digits = 17       # [model] of the job, if its numbers are exact"],
-        Error::RotationsHeld { rotations, .. } => return vec![held_rotations(rotations)],
+        Error::RotationsHeld { directions, .. } => return vec![held_rotations(directions)],
         _ => &[],
     };
     lines.iter().map(|line| (*line).to_owned()).collect()
 }
 
 /// The line that says that supports hold these rotations.
-fn held_rotations(rotations: &str) -> String {
-    let axes: Vec<String> = ["x", "y", "z"]
-        .into_iter()
-        .filter(|axis| rotations.split(|c: char| !c.is_ascii_alphabetic()).any(|word| word == *axis))
-        .map(|axis| format!("\"r{axis}\""))
-        .collect();
-    format!("held_rotations = [{}]     # [model] of the job, if supports do hold them", axes.join(", "))
+fn held_rotations(directions: &[Direction]) -> String {
+    let names: Vec<String> = directions.iter().map(|direction| format!("\"{direction}\"")).collect();
+    format!("held_rotations = [{}]     # [model] of the job, if supports do hold them", names.join(", "))
 }

@@ -68,7 +68,7 @@ impl<'a> BulkLines<'a> {
     /// BLAKE3 of the deck; where it includes others, of their digests one below the other.
     ///
     /// # Errors
-    /// Those of reading the files.
+    /// A file that cannot be read.
     pub(super) fn digest(mut self) -> Result<String> {
         while !self.open.is_empty() {
             self.close()?;

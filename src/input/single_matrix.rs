@@ -34,7 +34,7 @@ pub struct ReadSingle {
     pub name: Option<String>,
     /// What each row is, where the matrix or a map says so.
     pub dofs: Option<DofMap>,
-    /// The same as the matrix or the map names it, scalar dofs with their labels.
+    /// What the matrix or the map calls each row, with the labels of scalar dofs.
     pub labels: RowLabels,
     /// What reading needed beyond copying.
     pub notes: Vec<InputNote>,

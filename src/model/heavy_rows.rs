@@ -37,6 +37,10 @@ impl Model {
         let heaviest = rows.iter().copied().max_by(|a, b| masses[*a].total_cmp(&masses[*b]))?;
         let (heavy, others): (Vec<usize>, Vec<usize>) =
             rows.into_iter().partition(|row| ALIKE * masses[*row] >= masses[heaviest]);
+        // Of a mesh by itself nearly all rows are alike, and nothing is summed.
+        if heavy.len() > MOST_ROWS {
+            return None;
+        }
         // What elements share out between their nodes belongs to both.
         let of_row = |row: usize| {
             let entries = Leading::from(&self.mass).entries(row).filter(|(other, _)| is_translation(*other));
@@ -44,8 +48,7 @@ impl Model {
         };
         let rest = others.into_iter().map(of_row).sum::<f64>() / DIRECTIONS;
         let ratio = masses[heaviest] / rest;
-        let is_told = heavy.len() <= MOST_ROWS && rest > 0.0 && ratio >= TOLD_FROM;
-        is_told.then(|| HeavyRows { heaviest: self.names().full(heaviest), ratio })
+        (rest > 0.0 && ratio >= TOLD_FROM).then(|| HeavyRows { heaviest: self.names().full(heaviest), ratio })
     }
 }
 

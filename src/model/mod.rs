@@ -23,7 +23,7 @@ use crate::cache::Cache;
 use crate::dofs::{Dof, DofMap, FileRows, Nodes, RowNames};
 use crate::error::{Error, Result};
 use crate::input::{ConstraintRows, Input, MatrixInput};
-use crate::sparse::{Precision, Rounding, SparseMatrix, diagonal};
+use crate::sparse::{Leading, Precision, Rounding, SparseMatrix, diagonal};
 
 pub use added_mass::add_masses;
 pub use bodies::{Bodies, node_of_row};
@@ -322,7 +322,7 @@ fn check_diagonals(
         if m_empty {
             massless += 1;
             let is_tied = tied.binary_search(&(row as u32)).is_ok();
-            alone += usize::from(!is_tied && is_diagonal_row(stiffness, row));
+            alone += usize::from(!is_tied && Leading::from(stiffness).is_diagonal_row(row));
         } else if m < -(n as f64) * f64::EPSILON * m_max {
             return Err(Error::NegativeMass { row: names.number(row), dof: names.bracketed(row), value: m });
         } else if m < 0.0 {
@@ -379,11 +379,6 @@ fn clear_negative_rounding(mass: &mut SparseMatrix) {
             *value = 0.0;
         }
     }
-}
-
-/// Whether nothing of a row is in other columns.
-fn is_diagonal_row(matrix: &SparseMatrix, row: usize) -> bool {
-    matrix.outer_view(row).is_none_or(|view| view.iter().all(|(col, value)| col == row || *value == 0.0))
 }
 
 fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {

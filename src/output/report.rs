@@ -231,7 +231,7 @@ fn modes(results: &Results<'_>) -> Vec<ModeRow> {
         ModeRow {
             index: index + 1,
             frequency_hz,
-            error_bar_hz: 0.5 * error.relative_bar * frequency_hz,
+            error_bar_hz: error.bar_of(frequency_hz),
             backward_error: error.backward,
             kind,
             enclosure_hz: enclosure(results, index),

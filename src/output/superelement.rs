@@ -223,7 +223,7 @@ fn interface_coordinates(results: &Results<'_>, nodes: &[file::InterfaceNode]) -
 fn dynamic_coordinate(results: &Results<'_>, tensors: &Tensors, coordinate: DynamicCoordinate) -> Coordinate {
     let errors = &results.evidence.retained.modes.errors;
     let frequency = |mode: usize| tensors.frequencies[mode] / std::f64::consts::TAU;
-    let bar = |mode: usize| Some(0.5 * errors[mode].relative_bar * frequency(mode)).filter(|bar: &f64| bar.is_finite());
+    let bar = |mode: usize| Some(errors[mode].bar_of(frequency(mode))).filter(|bar: &f64| bar.is_finite());
     match coordinate {
         DynamicCoordinate::RigidBody(index) => Coordinate::RigidBodyMode { index },
         DynamicCoordinate::InertiaRelief(index) => Coordinate::InertiaRelief { index },

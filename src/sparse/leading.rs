@@ -28,6 +28,11 @@ impl<'a> Leading<'a> {
         self.n
     }
 
+    /// Whether nothing of a row is in other columns.
+    pub(crate) fn is_diagonal_row(self, row: usize) -> bool {
+        self.entries(row).all(|(column, value)| column == row || value == 0.0)
+    }
+
     /// Whether the block is all of the matrix.
     pub fn is_whole(self) -> bool {
         self.n == self.whole.rows()

@@ -1,6 +1,6 @@
 //! All checks of a reduction, in the order of their identifiers.
 
-use super::check::{Check, Verdict};
+use super::check::Check;
 use super::evidence::Evidence;
 use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
@@ -76,10 +76,8 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     if evidence.rigid.is_classical {
         let m_f = evidence.reduction.rigid_body_mass.as_ref();
         let precision = evidence.partition.precision.mass.share;
-        let of_a_body = mass::of_a_body(m_f, precision);
-        // What is no body has no inertia either.
-        checks.extend((of_a_body.verdict() != Verdict::Fail).then(|| mass::of_inertia(m_f, precision)).flatten());
-        checks.push(of_a_body);
+        checks.push(mass::of_a_body(m_f, precision));
+        checks.extend(mass::of_inertia(m_f, precision));
     }
     checks.extend(mass::of_weighed_body(evidence.partition));
     checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));

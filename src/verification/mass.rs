@@ -2,7 +2,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::check::{Check, Limits};
+use super::check::{Check, Limits, Verdict};
 use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
@@ -84,14 +84,14 @@ pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, precision: f64) -> Check {
 /// Share of the mean moment of inertia that is worth a look, and share that fails: of a part that far from the origin M has no inertia.
 const INERTIA_OPEN: [f64; 2] = [1e-3, 1e-2];
 
-/// M-16: the inertia about the centre is one that a body can have, and M has the digits for it. None without mass.
+/// M-16: the inertia about the centre is one that a body can have, and M has the digits for it. None of a point, and of what is no body.
 ///
 /// J = J_O − m(c² I − ccᵀ) is the difference of numbers that are (c/i)² times as large, i the radius of gyration. M is known to `precision` of
 /// its terms, in each direction by itself, so that the rotation about an axis may be off by that times m(c² − c_a²). No body has a negative
 /// moment, or one above the sum of the others.
 pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> {
     let mass = (m_f[(0, 0)] + m_f[(1, 1)] + m_f[(2, 2)]) / 3.0;
-    let c = [m_f[(1, 5)], m_f[(2, 3)], m_f[(0, 4)]].map(|moment| moment / mass);
+    let Place { centre: c, gyration } = Place::of(m_f, mass);
     let square: f64 = c.iter().map(|x| x * x).sum();
     let moved = |i: usize, j: usize| mass * (if i == j { square } else { 0.0 } - c[i] * c[j]);
     let about_centre = Mat::from_fn(3, 3, |i, j| 0.5 * (m_f[(3 + i, 3 + j)] + m_f[(3 + j, 3 + i)]) - moved(i, j));
@@ -99,12 +99,12 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> 
     let mean = moments.iter().sum::<f64>() / 3.0;
     let about_origin = (0..3).map(|i| m_f[(3 + i, 3 + i)]).sum::<f64>() / 3.0;
     // A point has none, but for the rounding of its distance.
-    if mass.is_nan() || mass <= 0.0 || mean.abs() <= NOISE_FACTOR * f64::EPSILON * about_origin {
+    let is_point = mass.is_nan() || mass <= 0.0 || mean.abs() <= NOISE_FACTOR * f64::EPSILON * about_origin;
+    if is_point || of_a_body(m_f, precision).verdict() == Verdict::Fail {
         return None;
     }
     let digits = precision.max(f64::EPSILON) * mass * square / mean.abs();
     let against_bodies = (-moments[0]).max(moments[2] - moments[0] - moments[1]).max(0.0) / mean.abs();
-    let gyration = (1.5 * mean.abs() / mass).sqrt();
     let [engineering, fail] = INERTIA_OPEN;
     Some(Check {
         id: "M-16",

@@ -8,9 +8,9 @@ use super::scaled::Scaled;
 use crate::audit::mass::is_of_a_body;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::rigid::{RigidBodyModes, RigidSource};
-use crate::sparse::diagonal;
 use crate::sparse::energies_of_terms;
 use crate::sparse::product_and_terms;
+use crate::sparse::{absolute_energy, diagonal};
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
 
@@ -212,9 +212,7 @@ impl KnownMotions {
 
 /// The largest |q|ᵀ|M||q| of the zero modes, which have unit mass.
 fn mass_terms(full: &Full<'_>) -> f64 {
-    let zero = full.zero.orthonormal.as_ref();
-    let (_, terms) = product_and_terms(&full.partition.mass, zero);
-    energies_of_terms(zero, terms.as_ref()).into_iter().fold(1.0, f64::max)
+    absolute_energy(&full.partition.mass, full.zero.orthonormal.as_ref()).into_iter().fold(1.0, f64::max)
 }
 
 /// Rows of the interface weighted by inertia, so that translations and rotations count alike.

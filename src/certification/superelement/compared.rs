@@ -60,7 +60,7 @@ impl Compared<'_> {
             let full_hz = hertz(*full);
             let reduced_hz = self.partners[at].map_or(f64::INFINITY, |partner| hertz(self.elastic()[partner]));
             let in_band = (from..=to).contains(&full_hz);
-            let full_error_bar_hz = 0.5 * error.relative_bar * full_hz;
+            let full_error_bar_hz = error.bar_of(full_hz);
             let relative_difference = reduced_hz / full_hz - 1.0;
             FrequencyPair { full_hz, full_error_bar_hz, reduced_hz, relative_difference, in_band }
         };

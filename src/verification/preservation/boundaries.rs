@@ -29,7 +29,7 @@ impl Reference {
                 reduced.get(j).map_or(f64::INFINITY, |quotient| evidence.partition.scaling.hertz(quotient.lambda));
             FrequencyPair {
                 full_hz,
-                full_error_bar_hz: 0.5 * error.relative_bar * full_hz,
+                full_error_bar_hz: error.bar_of(full_hz),
                 reduced_hz,
                 relative_difference: reduced_hz / full_hz - 1.0,
                 in_band: (band_hz[0]..=band_hz[1]).contains(&full_hz),

@@ -47,7 +47,7 @@ fn rows_held_by_a_diagonal_entry_move_nothing() {
             let flags = format!("{interface} --method craig-bampton --modes 4");
             place.reduce(&place.model_flags(), &flags).expect(ExitCode::Done);
             let found = frequencies_hz(&place.superelement("x.supel"));
-            // The same model with those rows taken out.
+            // The rows of the wall are taken out of this model.
             let without = Place::with(&supported(&free, |(label, _)| is_of_wall(label)));
             without.reduce(&without.model_flags(), &flags).expect(ExitCode::Done);
             assert_close(&found, &frequencies_hz(&without.superelement("x.supel")), 1e-8);

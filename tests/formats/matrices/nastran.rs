@@ -1,28 +1,15 @@
 //! Decks of Nastran: how they are recognised, what they include, and where they end.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use supel::error::{Error, Result};
 use supel::input::{Allowance, ReadSingle, SingleMatrix, digest_with_included};
 
+use crate::meshes::Folder;
+
 /// K = [2 −1; −1 3] at one grid point: its head, its first column and its second one.
 const HEAD: &str = "DMIG,K,0,6,2,0\nDMIG,K,1,1,,1,1,2.0\n";
 const SECOND: &str = "DMIG,K,1,2,,1,2,3.\n,1,1,-1.\n";
-
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().expect("a folder"))
-    }
-
-    fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.0.path().join(name);
-        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
-        std::fs::write(&path, content).expect("written");
-        path
-    }
-}
 
 fn read(file: &Path, dofs: Option<&Path>) -> Result<ReadSingle> {
     let matrix = SingleMatrix { file: file.to_owned(), layout: None, dofs: dofs.map(Path::to_owned) };
