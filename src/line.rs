@@ -127,7 +127,7 @@ pub(crate) fn known(
     rigid: &RigidBodyModes,
 ) -> Result<(Option<InterfaceRank>, Plan)> {
     refuse_resistance(plan.job(), partition, rigid)?;
-    let rank = rubin::rank_or_attachment(rigid::interface_rank(partition, rigid), plan)?;
+    let rank = rubin::rank_or_attachment(partition, rigid, plan)?;
     Ok((rank, plan.knowing(rigid::facts(partition, rigid, rank))))
 }
 

@@ -22,9 +22,10 @@ use crate::dense::{self, unpacked};
 use crate::error::{Error, Result};
 use crate::job::ReductionJob;
 use crate::modes::Retained;
+use crate::partition::Partition;
 use crate::plan::Plan;
 use crate::reduction::Reduction;
-use crate::rigid::InterfaceRank;
+use crate::rigid::{InterfaceRank, RigidBodyModes, interface_rank};
 
 /// Steps that take rigid-body motion out of the static modes: each leaves rounding of what the one before it left.
 const REFINEMENTS: usize = 2;
@@ -138,14 +139,16 @@ pub struct Rubin {
 }
 
 /// The rank of the interface; none where it leaves rigid-body motions free and the method of the job is Rubin's, whose static modes do
-/// without: the answers of the free component to loads stand in the place of constraint modes.
+/// without: the answers of the free component to loads stand in the place of constraint modes. What few digits turn rigid-body modes by is no
+/// reaction of the interface.
 ///
 /// # Errors
 /// Any error of the rank for another method.
-pub fn rank_or_attachment(rank: Result<InterfaceRank>, plan: &Plan) -> Result<Option<InterfaceRank>> {
+pub fn rank_or_attachment(partition: &Partition, rigid: &RigidBodyModes, plan: &Plan) -> Result<Option<InterfaceRank>> {
     let has_attachment_modes = plan.job().reduction.method.has_attachment_modes();
-    match rank {
+    match interface_rank(partition, rigid) {
         Err(Error::InterfaceRank { .. }) if has_attachment_modes => Ok(None),
+        Ok(rank) if has_attachment_modes && rank.singular_ratio <= rigid.energy.angle => Ok(None),
         rank => rank.map(Some),
     }
 }

@@ -15,7 +15,7 @@ use super::flaw::flaw;
 use super::named_modes::{named_amplitudes, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::error::Result;
-use crate::rigid::n_passing;
+use crate::rigid::{ILL_CONDITIONED, n_moving_less};
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
 
@@ -173,13 +173,14 @@ fn answered(content: &Content<'_>, amplitudes: MatRef<'_, f64>) -> Option<Check>
     })
 }
 
-/// M-26: rigid-body modes are coordinates only where the interface leaves some of them free.
+/// M-26: rigid-body modes are coordinates only where the interface leaves some of them free, or reacts them so badly that few digits of the
+/// stiffness do not tell.
 ///
 /// # Errors
 /// A dense decomposition that does not converge.
 fn needed(content: &Content<'_>) -> Result<Check> {
     let rows: Vec<usize> = (0..content.n_b).collect();
-    let n_free = n_passing(content.u.as_ref().subrows(0, content.n_b), &content.scale, &rows)?;
+    let n_free = n_moving_less(ILL_CONDITIONED, content.u.as_ref().subrows(0, content.n_b), &content.scale, &rows)?;
     let flaws = if n_free == 0 { vec!["the interface carries every rigid-body motion".to_owned()] } else { Vec::new() };
     let equation = "1 where rigid-body modes are coordinates and the interface leaves none of them free, else 0";
     Ok(flaw("rigid-body coordinates are needed", equation, &flaws))

@@ -296,7 +296,7 @@ impl Free {
             }
             Boundary::FixedInterface | Boundary::MixedInterface => None,
         };
-        let rank = rank_or_attachment(rigid::interface_rank(partition, given), plan);
+        let rank = rank_or_attachment(partition, given, plan);
         let is_attached = !is_modal && matches!(rank, Ok(None));
         let mut motions = KnownMotions::of(&full, given);
         motions.sight = if is_attached { Sight::Part } else { Sight::Whole };

@@ -89,6 +89,8 @@ fn energies(motions: &Motions<'_>, directions: &Mat<f64>, energy: &Mat<f64>, ter
         let weight = |i: usize| directions[(i, k)].abs();
         (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| weight(i) * terms[(i, j)] * weight(j)).sum()
     };
-    let of = |(k, energy)| Energy { energy, noise: motions.rounding() * terms_of(k) };
+    // A combination of six carries the rounding of the largest energy: a motion along guides has no terms of its own.
+    let of_combining = f64::EPSILON * energies.iter().fold(0.0, |max: f64, energy| max.max(energy.abs()));
+    let of = |(k, energy)| Energy { energy, noise: motions.rounding() * terms_of(k) + of_combining };
     Ok(energies.into_iter().enumerate().map(of).collect())
 }

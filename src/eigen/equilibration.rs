@@ -2,6 +2,9 @@
 //!
 //! With D holding powers of two near 1/√K_ii, DKD has a diagonal near one. Cholesky factorisation commutes with D bit
 //! for bit, so only the norms that errors are divided by need it, not the matrices.
+//!
+//! A row without stiffness has no such unit. Its mass gives one, 1/√(μ M_ii) with μ the least K_jj / M_jj of the other rows: at one whatever
+//! the units, a small inertia would move by so much that nothing next to it is an error.
 
 use faer::MatRef;
 use rayon::prelude::*;
@@ -33,7 +36,7 @@ impl Equilibrated {
     /// The scaling of a pencil, and ‖(DKD)_i‖₁ and ‖(DMD)_i‖₁ of each row.
     pub fn with_rows(pencil: Pencil<'_>) -> (Self, Vec<[f64; 2]>) {
         let Pencil { stiffness, mass } = pencil;
-        let scale: Vec<f64> = stiffness.diagonal().into_iter().map(dense::power_of_two_root).collect();
+        let scale = scales(&stiffness.diagonal(), &mass.diagonal());
         let norm = |matrix: Leading<'_>, row: usize| {
             scale[row] * matrix.entries(row).map(|(col, a)| scale[col] * a.abs()).sum::<f64>()
         };
@@ -88,5 +91,27 @@ impl Equilibrated {
             })
         };
         Self { stiffness_norm: norm(stiffness), mass_norm: norm(mass), scale }
+    }
+}
+
+/// D of the diagonals of K and M.
+fn scales(stiffness: &[f64], mass: &[f64]) -> Vec<f64> {
+    let rows = || stiffness.iter().zip(mass);
+    let ratios = rows().filter(|(k, m)| **k > 0.0 && **m > 0.0).map(|(k, m)| k / m);
+    let least = ratios.fold(f64::INFINITY, f64::min);
+    let unit = |(k, m): (&f64, &f64)| if *k == 0.0 { least * m } else { *k };
+    rows().map(|row| dense::power_of_two_root(unit(row))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_without_stiffness_has_the_unit_of_its_mass() {
+        assert_eq!(scales(&[4.0, 16.0, 0.0, 0.0], &[1.0, 1.0, 0.25, 0.0]), [0.5, 0.25, 1.0, 1.0]);
+        assert_eq!(scales(&[4.0, 16.0, 0.0, -4.0], &[1.0, 1.0, 1.0 / 64.0, 1.0]), [0.5, 0.25, 4.0, 1.0]);
+        // Without any stiffness there is no unit but one.
+        assert_eq!(scales(&[0.0, 0.0], &[1e-20, 1.0]), [1.0, 1.0]);
     }
 }

@@ -1,28 +1,28 @@
 //! Whether the nodes of a model can say how it moves without strain.
 
 use faer::{Mat, MatRef};
-use supel_runtime::Direction;
 
 use crate::dense;
 use crate::error::Result;
-use crate::input::strainless::{basis, lengths};
+use crate::input::strainless::{Place, basis, lengths};
 use crate::model::{Frame, Site};
-
-/// Direction and position of a row.
-type Place = (Direction, [f64; 3]);
 
 /// Whether supports hold a rigid-body motion of the nodes, and a motion without strain is none of theirs: a hinge on a support. Supports
 /// touch all rows of a condensed stiffness, and its nodes cannot be compared with it by the motions that are left. Rows of Û without a
-/// place, which are at rest, do not count.
+/// place, which are at rest, do not count. `masses` are those of the rows, M_ii.
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
-pub(super) fn is_held_and_gives_way(places: &[Option<Place>], rigid: MatRef<'_, f64>) -> Result<bool> {
+pub(super) fn is_held_and_gives_way(
+    (places, masses): (&[Option<Place>], &[f64]),
+    rigid: MatRef<'_, f64>,
+) -> Result<bool> {
     /// The sine of the angle between a motion and those of the nodes. Coordinates of five digits leave less.
     const OTHER: f64 = 1e-4;
     let rows: Vec<usize> = (0..places.len()).filter(|row| places[*row].is_some()).collect();
     let places: Vec<Option<Place>> = rows.iter().map(|row| places[*row]).collect();
-    let lengths = lengths(&places);
+    let masses: Vec<f64> = rows.iter().filter_map(|row| masses.get(*row).copied()).collect();
+    let lengths = lengths(&places, &masses);
     let site = |place: &Option<Place>| place.map(|(direction, position)| Site { position, direction });
     let sites: Vec<Option<Site>> = places.iter().map(site).collect();
     let centre = Frame::of(&sites, &(0..sites.len()).collect::<Vec<_>>()).centre;

@@ -3,6 +3,7 @@
 //! The components leave out modes from some frequency on, and a second reduction cannot have back what they left out. So the job keeps
 //! modes up to the lowest of these frequencies and no further.
 
+use faer::Mat;
 use supel_runtime::{Direction, Flag, Matrix, Superelement};
 use toml::Value;
 
@@ -11,10 +12,10 @@ use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
 use super::model_job::{HELD_ROWS, MOVING_ROWS, held_rotations, method, n_modes};
 use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members, Omitted};
-use crate::dense::unpacked;
+use crate::dense::{self, unpacked};
 use crate::error::Result;
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
-use crate::input::strainless::{lengths, moved_alone};
+use crate::input::strainless::{self, balance, lengths};
 use crate::number::quantity;
 
 /// An assembly that leaves as one model.
@@ -33,7 +34,8 @@ impl Joined {
     /// Those of [`Assembly::model`].
     pub fn new(assembly: &Assembly, kept: &[String]) -> Result<Self> {
         let mut model = assembly.model(kept)?;
-        clear_rounding(&mut model)?;
+        let lengths = lengths(&places(&model), &dense::diagonal(model.mass.as_ref()));
+        balance(&mut model.stiffness, model.rigid.as_ref(), &lengths)?;
         let mut notes = assembly.notes.clone();
         notes.extend(assembly.joined_to_nothing().map(|name| format!("{name} is joined to nothing")));
         notes.extend(assembly.components.iter().filter_map(left_behind));
@@ -48,15 +50,6 @@ impl Joined {
         };
         Ok(Self { notes, model, job })
     }
-}
-
-/// Zeros where the stiffness holds nothing but rounding.
-fn clear_rounding(model: &mut JoinedModel) -> Result<()> {
-    for row in moved_alone(model.rigid.as_ref(), &lengths(&places(model)))? {
-        model.stiffness.row_mut(row).fill(0.0);
-        model.stiffness.col_mut(row).fill(0.0);
-    }
-    Ok(())
 }
 
 /// Direction and position of the rows of nodes.
@@ -80,11 +73,12 @@ fn left_behind(component: &Component) -> Option<String> {
 /// The digits of the matrices of the whole, or of the component that has fewest. A component that its interface just holds has no stiffness
 /// there but rounding, which is judged with the stiffness of the others.
 fn stated_digits(assembly: &Assembly, model: &JoinedModel) -> Result<Option<i64>> {
-    let mut least = digits(model.stiffness.as_ref(), model.mass.as_ref(), model.rigid.as_ref())?;
+    let mut least = digits([&model.stiffness, &model.mass, &model.rigid].map(Mat::as_ref), &places(model))?;
     for component in &assembly.components {
         let tensors = component.superelement.tensors();
         let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(unpacked);
-        let own = digits(k.as_ref(), m.as_ref(), u.as_ref())?.filter(|own| *own >= FEWEST_DIGITS);
+        let own = digits([&k, &m, &u].map(Mat::as_ref), &strainless::places(&component.superelement))?
+            .filter(|own| *own >= FEWEST_DIGITS);
         least = least.into_iter().chain(own).min();
     }
     Ok(least)
@@ -129,7 +123,8 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
     let without_nodes = if superelements().any(Superelement::has_rigid_amplitudes) {
         Some(MOVING_ROWS)
     } else {
-        is_held_and_gives_way(&places(model), model.rigid.as_ref())?.then_some(HELD_ROWS)
+        is_held_and_gives_way((&places(model), &dense::diagonal(model.mass.as_ref())), model.rigid.as_ref())?
+            .then_some(HELD_ROWS)
     };
     let mut remarks = remarks(assembly, &band);
     remarks.extend(without_nodes.map(str::to_owned));

@@ -39,7 +39,7 @@ impl Format for MatrixMarket {
         let nodes = &superelement.metadata().interface_nodes;
         let labels = superelement.metadata().interface_labels();
         let rows = rows(superelement, &labels);
-        let stiffness = condensed_stiffness(superelement)?;
+        let stiffness = condensed_stiffness(superelement)?.stiffness;
         let Tensors { mass, damping, gravity, load_vectors, recovery, quantities, matrices, .. } =
             superelement.tensors();
         let mut files = vec![file("stiffness.mtx", "stiffness", symmetric(&stiffness, &rows))];

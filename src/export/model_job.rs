@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::path::Path;
 
+use faer::Mat;
 use supel_runtime::{Coordinate, Flag, InterfaceNode, Matrix, Metadata, Method, Superelement};
 
 use super::held_mechanism::is_held_and_gives_way;
@@ -13,7 +14,7 @@ use super::names::Names;
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
-use crate::input::strainless::{condensed_stiffness, places};
+use crate::input::strainless::{Condensed, condensed_stiffness, masses, places};
 use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
 use crate::report::printable;
 
@@ -37,10 +38,10 @@ pub fn job_of(superelement: &Superelement, path: &Path) -> Result<(String, Optio
 /// The job, or why there is none.
 pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<JobText, &'static str>> {
     let labels = superelement.metadata().interface_labels();
-    let stiffness = condensed_stiffness(superelement)?;
-    let digits = match no_job(superelement, &stiffness) {
+    let condensed = condensed_stiffness(superelement)?;
+    let digits = match no_job(superelement, &condensed) {
         Some(why) => return Ok(Err(why)),
-        None => digits_of(superelement, &stiffness)?,
+        None => digits_of(superelement, &condensed.stiffness)?,
     };
     if digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
         return Ok(Err("lets rigid-body motion pass to fewer than four digits of its stiffness"));
@@ -78,7 +79,7 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
 
 /// Why nothing reduces a superelement, whatever its numbers. An interface that just holds its component has no stiffness but rounding. A mass
 /// that is singular by its method is that of no model, and internal forces of a preloaded component are not in its file.
-fn no_job(superelement: &Superelement, stiffness: &Matrix) -> Option<&'static str> {
+fn no_job(superelement: &Superelement, condensed: &Condensed) -> Option<&'static str> {
     let is_marked = |flag: &Flag| superelement.metadata().flags.contains(flag);
     let reasons = [
         (is_marked(&Flag::StiffnessOnly), "has no mass"),
@@ -89,7 +90,7 @@ fn no_job(superelement: &Superelement, stiffness: &Matrix) -> Option<&'static st
         ),
         (is_marked(&Flag::SingularMass), "has the singular mass of MacNeal's method, which is that of no model"),
         (is_marked(&Flag::Preloaded), "is preloaded, and its internal forces are not in its file"),
-        (has_free_dof(superelement, stiffness), NO_STIFFNESS),
+        (has_free_dof(superelement, condensed), NO_STIFFNESS),
     ];
     reasons.into_iter().find_map(|(is_so, why)| is_so.then_some(why))
 }
@@ -97,7 +98,7 @@ fn no_job(superelement: &Superelement, stiffness: &Matrix) -> Option<&'static st
 fn digits_of(superelement: &Superelement, stiffness: &Matrix) -> Result<Option<i64>> {
     let tensors = superelement.tensors();
     let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
-    digits(k.as_ref(), m.as_ref(), u.as_ref())
+    digits([&k, &m, &u].map(Mat::as_ref), &places(superelement))
 }
 
 /// Why a job does without the map and the nodes that there are.
@@ -106,7 +107,7 @@ fn without_nodes(superelement: &Superelement) -> Result<Option<&'static str>> {
         return Ok(Some(MOVING_ROWS));
     }
     let rigid = dense::unpacked(&superelement.tensors().rigid_body_modes);
-    Ok(is_held_and_gives_way(&places(superelement), rigid.as_ref())?.then_some(HELD_ROWS))
+    Ok(is_held_and_gives_way((&places(superelement), &masses(superelement)), rigid.as_ref())?.then_some(HELD_ROWS))
 }
 
 /// What the job says where amplitudes move.

@@ -1,7 +1,7 @@
 //! The digits of a condensed stiffness, which a job that reduces it again states.
 //!
 //! ```text
-//! Q    r × n_r    rigid-body modes of the matrices, M̂-orthonormal combinations of Û
+//! Q    r × n_r    rigid-body modes of the matrices, M̂-orthonormal combinations of Û without its rounding
 //! ```
 //! K̂ was condensed from a stiffness that is larger by orders, and its entries carry the rounding of that one. So K̂ Q is not zero
 //! to the last digit of K̂, and the job states as many digits as K̂ Q shows: taken for exact, the zero eigenvalues of K̂
@@ -9,6 +9,7 @@
 
 use faer::{Mat, MatRef};
 
+use super::strainless::{Place, without_rounding};
 use crate::dense;
 use crate::error::Result;
 
@@ -21,7 +22,7 @@ pub(crate) const FEWEST_DIGITS: i64 = 4;
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
-pub(crate) fn digits(k: MatRef<'_, f64>, m: MatRef<'_, f64>, u: MatRef<'_, f64>) -> Result<Option<i64>> {
+pub(crate) fn digits([k, m, u]: [MatRef<'_, f64>; 3], places: &[Option<Place>]) -> Result<Option<i64>> {
     /// Combinations of the columns of Q, in which more cancels, do worse than each.
     const MARGIN: f64 = 10.0;
     /// As many identify almost every double, and reading takes them for all.
@@ -29,6 +30,8 @@ pub(crate) fn digits(k: MatRef<'_, f64>, m: MatRef<'_, f64>, u: MatRef<'_, f64>)
     if u.ncols() == 0 {
         return Ok(None);
     }
+    let u = without_rounding(u, places, &dense::diagonal(m));
+    let u = u.as_ref();
     let mut modal_mass = dense::gram(u, dense::product(m, u).as_ref());
     dense::symmetrise(&mut modal_mass);
     let (masses, directions) = dense::symmetric_eigen(modal_mass.as_ref())?;

@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use faer::Mat;
 use supel_runtime::{Coordinate, Flag, Matrix, Superelement, Verdict};
 
 use super::allowance::Allowance;
@@ -19,7 +20,7 @@ use super::format::{
 };
 use super::member::split_member;
 use super::named::chosen;
-use super::strainless::condensed_stiffness;
+use super::strainless::{Condensed, condensed_stiffness, places};
 use super::unsupported_format::{PACKED_SUPERELEMENT, is_packed_superelement};
 use super::{MatrixInput, MatrixRole};
 use crate::dense;
@@ -89,10 +90,10 @@ impl MatrixFormat for SuperelementFile {
         }
         let is_of_model = name == STIFFNESS && source.role == MatrixRole::Stiffness;
         let condensed = is_of_model.then(|| condensed_stiffness(&superelement)).transpose()?;
-        if condensed.as_ref().is_some_and(|stiffness| has_free_dof(&superelement, stiffness)) {
+        if condensed.as_ref().is_some_and(|condensed| has_free_dof(&superelement, condensed)) {
             return Err(no_model(path, NO_STIFFNESS, FREE_DOF));
         }
-        let matrix = condensed.as_ref().unwrap_or(matrix);
+        let matrix = condensed.as_ref().map_or(matrix, |condensed| &condensed.stiffness);
         let mut input =
             entries(matrix, source)?.into_matrix(source, (matrix.rows() as u32, source.role.undeclared()), digest)?;
         if name == STIFFNESS && source.stated_digits.is_none() {
@@ -186,9 +187,9 @@ const MASS: &str = "mass";
 /// What speaks against a superelement with a dof whose stiffness rounding may have left.
 pub(crate) const NO_STIFFNESS: &str = "has no stiffness but rounding at a dof of its interface";
 
-/// Whether a dof of the interface that does not move alone has a stiffness that is nothing next to the largest of its kind, translations or
-/// rotations. In a K̂ that is condensed from larger numbers rounding is as much, of either sign.
-pub(crate) fn has_free_dof(superelement: &Superelement, condensed: &Matrix) -> bool {
+/// Whether a dof of the interface whose stiffness does not follow from that of others has one that is nothing next to the largest of its
+/// kind, translations or rotations. In a K̂ that is condensed from larger numbers rounding is as much, of either sign.
+pub(crate) fn has_free_dof(superelement: &Superelement, condensed: &Condensed) -> bool {
     /// Bending of a beam of 1:1000 has 10⁻⁶ of its axial stiffness.
     const NOTHING: f64 = 1e-10;
     let turns = |coordinate: &Coordinate| match coordinate {
@@ -197,10 +198,12 @@ pub(crate) fn has_free_dof(superelement: &Superelement, condensed: &Matrix) -> b
         _ => None,
     };
     let kinds: Vec<Option<bool>> = superelement.metadata().coordinates.iter().map(turns).collect();
+    let Condensed { stiffness, following } = condensed;
     [false, true].into_iter().any(|kind| {
-        let rows = || (0..kinds.len()).filter(|row| kinds[*row] == Some(kind)).map(|row| condensed[(row, row)]);
-        let largest = rows().fold(0.0, f64::max);
-        rows().any(|value| value != 0.0 && value < NOTHING * largest)
+        let rows = || (0..kinds.len()).filter(|row| kinds[*row] == Some(kind));
+        let largest = rows().map(|row| stiffness[(row, row)]).fold(0.0, f64::max);
+        let is_nothing = |value: f64| value != 0.0 && value < NOTHING * largest;
+        rows().any(|row| !following.contains(&row) && is_nothing(stiffness[(row, row)]))
     })
 }
 
@@ -296,6 +299,6 @@ fn digits_shown(superelement: &Superelement, stiffness: &Matrix, of_values: Digi
         return Ok(of_values);
     }
     let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
-    let shown = digits(k.as_ref(), m.as_ref(), u.as_ref())?;
+    let shown = digits([&k, &m, &u].map(Mat::as_ref), &places(superelement))?;
     Ok(shown.map_or(of_values, |shown| Digits::condensed((shown as u32).min(of_values.significant))))
 }

@@ -5,6 +5,7 @@ use faer::{Mat, MatRef};
 use super::algebraic;
 use super::energy::{residuals, zero_energies};
 use super::preload;
+use super::rank::scales;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::zero;
@@ -143,10 +144,36 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
         motions = preload::without_force(partition, motions, &frame)?;
     }
     let (orthonormal, massless) = free_motions(partition, motions.as_ref())?;
+    let orthonormal = settled(partition, orthonormal);
     let energy = energy_of(partition, orthonormal.as_ref());
     // Were all six of a preloaded component free, the preload would show in rotations of its parts alone.
     let is_classical = orthonormal.ncols() + massless.ncols() == 6 && !partition.fit.is_preloaded();
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
+}
+
+/// The motions with rest at the dofs that move by no more than rounding of the rest, where less force is left of that: what slides along guides
+/// leaves everything else at rest, and its combination from six motions not quite.
+fn settled(partition: &Partition, mut motions: Mat<f64>) -> Mat<f64> {
+    /// Of the largest displacement: ten thousand roundings.
+    const AT_REST: f64 = 1e-12;
+    let scale = scales(partition);
+    let size = |motions: &Mat<f64>, i: usize, j: usize| scale[i] * motions[(i, j)].abs();
+    let mut rest = motions.clone();
+    for j in 0..motions.ncols() {
+        let largest = (0..motions.nrows()).map(|i| size(&motions, i, j)).fold(0.0, f64::max);
+        (0..motions.nrows()).filter(|i| size(&motions, *i, j) <= AT_REST * largest).for_each(|i| rest[(i, j)] = 0.0);
+    }
+    if rest == motions {
+        return motions;
+    }
+    let forces = [&motions, &rest].map(|motions| product(&partition.stiffness, motions.as_ref()));
+    for j in 0..motions.ncols() {
+        let [before, after] = [0, 1].map(|which| dense::norm(dense::column(forces[which].as_ref(), j)));
+        if after < before {
+            motions.col_mut(j).copy_from(rest.col(j));
+        }
+    }
+    motions
 }
 
 /// The motions that cost no energy: those with mass, M-orthonormal, and those without. Each is held to its own rounding: next to a heavy mass
@@ -161,7 +188,7 @@ fn free_motions(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<
         return Err(Error::MasslessRigidMotion { relative_mass: 0.0 });
     }
     if n_free < motions.ncols() && is_free_to_k(partition, &found)? {
-        let [massive, massless] = found.map(|energies| energies.motions);
+        let [massive, massless] = found.map(|energies| energies.given);
         return Ok((massive, massless));
     }
     Ok((found[0].free(), found[1].free()))
@@ -262,21 +289,25 @@ fn mass_orthonormal(mass: &SparseMatrix, motions: MatRef<'_, f64>, rounding: f64
         return Ok((of(&massive, &|_| 1.0), massless));
     }
     q = of(&massive, &|j| 1.0 / masses[j].sqrt());
-    // Two more passes remove what rounding of the first left: a body far from round has unlike modal masses.
+    // Two more passes remove what rounding of the first left: a body far from round has unlike modal masses. Each leaves the motions what they
+    // are but for that: next to a heavy mass translations of unit modal mass are so small that a mixture with rotations would lose them.
     for _ in 0..2 {
         let (masses, directions) = dense::symmetric_eigen(modal_mass(q.as_ref()).as_ref())?;
         if let Some(mass) = masses.iter().find(|mass| mass.is_nan() || **mass <= 0.0) {
             return Err(Error::MasslessRigidMotion { relative_mass: *mass });
         }
         let scaled = Mat::from_fn(masses.len(), masses.len(), |i, j| directions[(i, j)] / masses[j].sqrt());
-        q = dense::product(q.as_ref(), scaled.as_ref());
+        let root = dense::product(scaled.as_ref(), directions.transpose());
+        q = dense::product(q.as_ref(), root.as_ref());
     }
     Ok((q, massless))
 }
 
 /// What some motions cost, each by itself.
 struct Energies {
-    /// The motions, combined so that none shares energy with another.
+    /// The motions as they were given.
+    given: Mat<f64>,
+    /// They, combined so that none shares energy with another.
     motions: Mat<f64>,
     /// xᵀKx of each, ascending.
     energies: Vec<f64>,
@@ -297,7 +328,7 @@ impl Energies {
         let energies = dense::dots(motions.as_ref(), forces.as_ref());
         let zero = zero::of_alike(&energies, &zero_energies(partition, motions.as_ref(), terms.as_ref()));
         let noise = sizes.iter().map(|size| noise_share(partition) * size).collect();
-        Ok(Self { motions, energies, noise, zero })
+        Ok(Self { given: x.to_owned(), motions, energies, noise, zero })
     }
 
     /// How many of them cost no more than `levels`.
@@ -305,7 +336,11 @@ impl Energies {
         self.energies.iter().zip(levels).filter(|(energy, level)| energy <= level).count()
     }
 
+    /// Those that cost nothing; all of them as they were given, which rounding of their energies would mix.
     fn free(&self) -> Mat<f64> {
+        if self.n_within(&self.zero) == self.energies.len() {
+            return self.given.clone();
+        }
         let free: Vec<usize> = (0..self.energies.len()).filter(|j| self.energies[*j] <= self.zero[*j]).collect();
         Mat::from_fn(self.motions.nrows(), free.len(), |i, j| self.motions[(i, free[j])])
     }

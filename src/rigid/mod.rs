@@ -29,7 +29,7 @@ pub use facts::facts;
 pub(crate) use geometric::{NO_MASS, moving_directions};
 pub use of_partition::{counted_by_matrices, from_coordinates, rigid_body_modes};
 pub use passing::with_passing;
-pub(crate) use passing::{n_passing, passing_motions, that_pass};
+pub(crate) use passing::{n_moving_less, n_passing, passing_motions, that_pass};
 pub use rank::{ILL_CONDITIONED, InterfaceRank, confirmed_rank, interface_rank, or_lack_of_rank};
 pub(crate) use rank::{scales, unit_motions};
 pub use rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};

@@ -72,6 +72,14 @@ pub(crate) fn passing_motions(
 /// # Errors
 /// A dense decomposition that does not converge.
 pub(crate) fn n_passing(motions: MatRef<'_, f64>, scales: &[f64], held: &[usize]) -> Result<usize> {
+    n_moving_less(PASSES, motions, scales, held)
+}
+
+/// How many motions move the held coordinates by no more than a share of what the largest does, as [`n_passing`].
+///
+/// # Errors
+/// A dense decomposition that does not converge.
+pub(crate) fn n_moving_less(share: f64, motions: MatRef<'_, f64>, scales: &[f64], held: &[usize]) -> Result<usize> {
     let n_r = motions.ncols();
     if held.is_empty() || n_r == 0 {
         return Ok(n_r);
@@ -88,7 +96,7 @@ pub(crate) fn n_passing(motions: MatRef<'_, f64>, scales: &[f64], held: &[usize]
     let (singular, _) = dense::right_singular(at_held.as_ref())?;
     // Where all of them pass, the largest is rounding itself: then a motion that does not is as large as it is anywhere.
     let anywhere = 1.0 / (motions.nrows() as f64).sqrt();
-    Ok(singular.iter().filter(|value| **value <= PASSES * singular[0].max(anywhere)).count())
+    Ok(singular.iter().filter(|value| **value <= share * singular[0].max(anywhere)).count())
 }
 
 /// Combinations of the motions that vanish at the held dofs; rows weighted by stiffness, so that rotations and

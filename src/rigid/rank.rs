@@ -14,6 +14,7 @@ use crate::job::Eigensolver;
 use crate::model::{Finding, Site};
 use crate::partition::{DofOrigin, Partition};
 use crate::random::SEED;
+use crate::sparse::diagonal;
 
 /// Below this ratio of singular values the interface does not react a motion.
 const RANK_TOLERANCE: f64 = 1e-10;
@@ -103,8 +104,8 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
 
 /// What each dof is multiplied by to be compared with others: a rotation by the size of the component.
 pub(crate) fn scales(partition: &Partition) -> Vec<f64> {
-    let size = partition.sites().map_or(1.0, |sites| size_of(&sites));
-    let stiffness = crate::sparse::diagonal(&partition.stiffness);
+    let size = partition.sites().map_or(1.0, |sites| extent(&sites).or(gyration(partition, &sites)).unwrap_or(1.0));
+    let stiffness = diagonal(&partition.stiffness);
     let scale = |dof: usize| match (partition.dofs[dof].origin, partition.dofs[dof].site) {
         (_, Some(site)) if site.direction.is_rotation() => size,
         // Distortions of patches are displacements.
@@ -140,7 +141,8 @@ fn free_particles(partition: &Partition) -> String {
     particles.map_or_else(String::new, |particles| format!("; {particles}"))
 }
 
-fn size_of(sites: &[Option<Site>]) -> f64 {
+/// The diagonal of the box around all sites; none where they are one place.
+fn extent(sites: &[Option<Site>]) -> Option<f64> {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
     for site in sites.iter().flatten() {
@@ -150,7 +152,17 @@ fn size_of(sites: &[Option<Site>]) -> f64 {
         }
     }
     let size = (0..3).map(|axis| (high[axis] - low[axis]).powi(2)).sum::<f64>().sqrt();
-    if size > 0.0 { size } else { 1.0 }
+    (size > 0.0).then_some(size)
+}
+
+/// The radius of gyration by the masses of rotations and translations; none where one of them is nothing.
+fn gyration(partition: &Partition, sites: &[Option<Site>]) -> Option<f64> {
+    let mass = diagonal(&partition.mass);
+    let sum = |turns: bool| {
+        let own = sites.iter().zip(&mass).filter(|(site, _)| site.is_some_and(|s| s.direction.is_rotation() == turns));
+        own.map(|(_, mass)| mass).sum::<f64>()
+    };
+    Some((sum(true) / sum(false)).sqrt()).filter(|radius| radius.is_normal())
 }
 
 /// Puts a rigid motion into words: the axis it turns about, or the direction it moves in.
@@ -159,7 +171,7 @@ fn describe(sites: &[Option<Site>], motion: &[f64]) -> String {
         return String::new();
     };
     let (turning, moving) = (length(r), length(t));
-    let size = size_of(sites);
+    let size = extent(sites).unwrap_or(1.0);
     if turning * size <= 1e-6 * moving {
         let [x, y, z] = t.map(|value| value / moving);
         return format!("; free: translation along ({x:.3}, {y:.3}, {z:.3})");

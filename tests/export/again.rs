@@ -2,13 +2,13 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel_models::transform::{carrying, in_local_frames, join, translated};
-use supel_models::{Material, Model, brick};
+use supel_models::transform::{carrying, join, translated};
+use supel_models::{Material, brick};
 use supel_runtime::{Coordinate, Superelement};
 use supel_testing::cases::hinged;
 use supel_testing::place::{Place, assert_close, frequencies_hz, steel_brick, supel};
 
-use super::matrix_market::matrix;
+use super::little_stiffness::rows_with_stiffness;
 use super::{HELD, HINGED, export, reduced};
 
 const METHODS: [&str; 2] = ["craig-bampton", "herting"];
@@ -253,31 +253,6 @@ fn an_interface_that_just_holds_has_no_stiffness() {
     }
     reduced("--rigid-interface foot=1,11,31 --method guyan");
     assert!(!place.path("x.job.toml").exists());
-}
-
-/// Three nodes whose plane is nearly across an axis have little stiffness along it, next to rounding of large ones: it is real, and kept.
-#[test]
-fn a_little_stiffness_next_to_large_ones_is_real() {
-    let body = steel_brick();
-    // Exactly across the axis there is none.
-    for (tilt, n_alone) in [(0.0, 3), (1e-7, 0), (3e-2, 0)] {
-        let (sin, cos) = f64::sin_cos(tilt);
-        let frame = [[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]];
-        let along = |x: &[f64; 3]| frame.map(|axis| (0..3).map(|i| axis[i] * x[i]).sum());
-        let turned = in_local_frames(&body, &frame, |_| true);
-        let place = Place::with(&Model { nodes: body.nodes.iter().map(along).collect(), ..turned });
-        place
-            .reduce(&place.model_flags(), "--interface foot=1,11,31 --method herting --modes 5")
-            .expect(ExitCode::Done);
-        export(&place, "matrix-market", &[]).expect(ExitCode::Done);
-        let rows = rows_with_stiffness(&place);
-        assert_eq!(rows, place.superelement("x.supel").n_coordinates() - n_alone, "turned by {tilt}");
-    }
-}
-
-/// How many rows of x.stiffness.mtx have an entry.
-fn rows_with_stiffness(place: &Place) -> usize {
-    matrix(place, "x.stiffness.mtx").iter().filter(|row| row.iter().any(|value| *value != 0.0)).count()
 }
 
 /// The patch of a free body next to another one has no stiffness but rounding, which is small next to nothing of its own.

@@ -3,6 +3,7 @@
 mod again;
 mod as_model;
 mod command;
+mod little_stiffness;
 mod matrix_market;
 mod op4;
 mod scalar_points;
