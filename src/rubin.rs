@@ -30,6 +30,10 @@ use crate::rigid::{InterfaceRank, RigidBodyModes, interface_rank};
 /// Steps that take rigid-body motion out of the static modes: each leaves rounding of what the one before it left.
 const REFINEMENTS: usize = 2;
 
+/// The share of rigid-body motion in the static modes that remains where the deformations do not tell motions apart, to rounding: half of the
+/// digits.
+const NOT_TAKEN_OUT: f64 = 1e-8;
+
 /// What Rubin's form is made from: a reduced model in Herting's coordinates q, of r = n_B + n_η.
 #[derive(Clone, Debug)]
 pub struct Herting {
@@ -180,18 +184,25 @@ impl Rubin {
     pub fn new(herting: Herting) -> Result<Self> {
         let Herting { stiffness: k, mass: m, motions: u, relief, modes, n_interface: n_b, rigid_body_mass } = herting;
         let r = k.nrows();
-        let loads = dense::product(m.as_ref().subrows(n_b, r - n_b), u.as_ref());
+        let frame = unit_mass(&rigid_body_mass);
+        let [motions, relief] = [&u, &relief].map(|a| dense::product(a.as_ref(), frame.as_ref()));
+        let loads = dense::product(m.as_ref().subrows(n_b, r - n_b), motions.as_ref());
         let inertia = dense::gram(relief.as_ref(), loads.as_ref());
-        let momenta = dense::product(m.as_ref(), u.as_ref());
+        let momenta = dense::product(m.as_ref(), motions.as_ref());
         let mut statics = Mat::zeros(r, n_b);
         statics.as_mut().subrows_mut(0, n_b).copy_from(Mat::<f64>::identity(n_b, n_b));
         let mut z = Mat::zeros(u.ncols(), n_b);
+        let mut left = dense::gram(momenta.as_ref(), statics.as_ref());
+        let before = left.norm_l2();
         // What a step leaves is rounding of the constraint modes and of relief modes, which cancel, and of the solve; the next takes it out.
         for _ in 0..REFINEMENTS {
-            let left = dense::gram(momenta.as_ref(), statics.as_ref());
             let step = solved(inertia.clone(), left)?;
-            z -= &step;
+            dense::add_product(z.as_mut(), -1.0, frame.as_ref(), step.as_ref());
             dense::add_product(statics.as_mut().subrows_mut(n_b, r - n_b), -1.0, relief.as_ref(), step.as_ref());
+            left = dense::gram(momenta.as_ref(), statics.as_ref());
+        }
+        if dense::worse(left.norm_l2(), NOT_TAKEN_OUT * before) {
+            return Err(Error::NoAttachmentModes);
         }
         let mut dynamics = modes;
         let x_b = dynamics.as_ref().subrows(0, n_b).to_owned();
@@ -290,6 +301,19 @@ fn projected(a: &Mat<f64>, columns: &Mat<f64>) -> Mat<f64> {
     let mut projected = dense::gram(columns.as_ref(), images.as_ref());
     dense::symmetrise(&mut projected);
     projected
+}
+
+/// W with WᵀM_F W = I: rotations about the origin are then motions about the centre of mass. Next to a heavy mass all unit motions that move it
+/// load the interior alike. The identity where some motion has no mass.
+fn unit_mass(rigid_body_mass: &Mat<f64>) -> Mat<f64> {
+    let n = rigid_body_mass.nrows();
+    let identity = Mat::<f64>::identity(n, n);
+    let scale: Vec<f64> = (0..n).map(|i| rigid_body_mass[(i, i)].sqrt().recip()).collect();
+    let scaled = Mat::from_fn(n, n, |i, j| rigid_body_mass[(i, j)] * scale[i] * scale[j]);
+    let Ok(factor) = scaled.llt(Side::Lower) else { return identity };
+    let inverse = dense::inverse(factor.L());
+    let frame = Mat::from_fn(n, n, |i, j| scale[i] * inverse[(j, i)]);
+    if frame.is_all_finite() { frame } else { identity }
 }
 
 /// [A, −AU; −UᵀA, UᵀAU + A_F].

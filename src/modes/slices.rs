@@ -19,6 +19,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::boundary_problem::BoundaryProblem;
+use super::certificate::below_zero;
 use super::counts::{Counts, middle};
 use crate::dense;
 use crate::eigen::ElasticCount;
@@ -270,9 +271,12 @@ fn side_by_side<T: Send + Sync>(
     answers.into_iter().map(|answer| answer.into_inner().expect("each place was taken once")).collect()
 }
 
-/// The error of an interval that is given up.
+/// The error of an interval that is given up: why counts and modes differ where that is known, or that modes are missing.
 pub(super) fn missing(problem: &BoundaryProblem<'_>, modes: &Modes, upper: ElasticCount) -> Error {
     let (sigma, n_rigid) = (upper.inertia.sigma, problem.n_rigid());
+    if let Some(error) = below_zero(problem, modes) {
+        return error;
+    }
     Error::ModesMissing {
         below_hz: problem.component.partition.scaling.hertz(sigma),
         found: modes.n_between(f64::NEG_INFINITY, sigma) + n_rigid,

@@ -368,3 +368,21 @@ fn a_heavy_mass_is_named_where_a_check_fails() {
         assert_eq!(made.out.contains("(node 8 u"), is_named, "{mass:e}:\n{}{}", made.out, made.err);
     }
 }
+
+/// Next to a mass far heavier than the rest all unit motions load the interior of the part alike, and its own motions about the mass do not:
+/// Rubin's attachment modes are made of these. Where rounding leaves nothing of them, they are refused by name.
+#[test]
+fn attachment_modes_next_to_a_heavy_mass() {
+    let block = brick([4, 2, 2], [0.3, 0.2, 0.1], &Material::STEEL_SI);
+    let mass = block.total_mass(0);
+    for (ratio, code) in [(1e2, ExitCode::Done), (4e5, ExitCode::Done), (1e12, ExitCode::ModelPhysics)] {
+        let place = Place::with(&carrying(&block, &[23], ratio * mass));
+        let rest = "--rigid-interface a=1,6,11 --interface b=5,20,35,45 --method rubin --modes 5";
+        let made = place.reduce(&place.model_flags(), rest);
+        assert_eq!(made.code, code, "{ratio:e}:\n{}{}", made.out, made.err);
+        match code {
+            ExitCode::Done => supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done),
+            _ => made,
+        };
+    }
+}

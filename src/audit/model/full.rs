@@ -37,7 +37,7 @@ impl<'a> Full<'a> {
         let n_zero = confirmed(&found, given);
         let (shapes, elastic) = found.lowest.shapes.as_ref().split_at_col(n_zero);
         let (shapes, elastic) = (shapes.to_owned(), elastic.to_owned());
-        let first = found.lowest.lambda.get(n_zero).copied().or(found.lowest.next).unwrap_or(1.0);
+        let first = found.lowest.lambda[n_zero..].iter().copied().reduce(f64::min).or(found.lowest.next).unwrap_or(1.0);
         let looked_at = &found.lowest.errors[..found.lowest.count().min(n_zero + 1)];
         let noise = looked_at.iter().map(|error| error.zero_level / first).fold(0.0, f64::max);
         let zero = RigidBodyModes {
@@ -59,12 +59,17 @@ fn by_coordinates(given: &RigidBodyModes) -> usize {
 
 /// How many modes are zero: by their own levels, or as many as the coordinates say where none of those is above the largest level, which
 /// is what the motions of the coordinates are held to. Modes beyond those of the coordinates that only rounding of their neighbours
-/// makes zero are elastic: where ties of 10⁹ times the stiffness hide half the digits, the soft ones cannot be told by their neighbours.
+/// makes zero are elastic: where ties of 10⁹ times the stiffness hide half the digits, the soft ones cannot be told by their neighbours. So are
+/// those above an elastic one that is none by its own level: of soft rotations few digits may leave no frequency.
 fn confirmed(found: &Shifted<'_>, given: &RigidBodyModes) -> usize {
     let n_given = by_coordinates(given);
     if (1..found.n_zero).contains(&n_given) {
         let beyond = n_given..found.n_zero;
-        let is_elastic = |j: usize| !zero::is_zero(found.lowest.lambda[j], found.lowest.errors[j].zero_level);
+        let known = found.lowest.lambda[found.n_zero..].iter().copied().fold(f64::INFINITY, f64::min);
+        let is_elastic = |j: usize| {
+            let lambda = found.lowest.lambda[j];
+            lambda > known || !zero::is_zero(lambda, found.lowest.errors[j].zero_level)
+        };
         return if beyond.into_iter().all(is_elastic) { n_given } else { found.n_zero };
     }
     if n_given <= found.n_zero || n_given > found.lowest.count() {
