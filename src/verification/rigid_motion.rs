@@ -9,7 +9,9 @@ use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::Equilibrated;
 use crate::error::Result;
+use crate::rigid::scales;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
@@ -114,19 +116,24 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
 
 /// M-12, null space.
 pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
+    /// The most that rounding excuses: four digits are left.
+    const LARGEST_ROUNDING: f64 = 1e-4;
     let reduction = evidence.reduction;
     let norms = reduced_norms(evidence);
     let forces = dense::product(reduction.stiffness.as_ref(), reduction.rigid_body_modes.as_ref());
-    let mut worst = (0.0, None);
+    let (mut worst, mut of_displacements) = ((0.0, None), 0.0f64);
     for j in 0..forces.ncols() {
         let u = dense::column(reduction.rigid_body_modes.as_ref(), j);
         let error = norms.backward_error(0.0, u, dense::column(forces.as_ref(), j));
+        of_displacements = of_displacements.max(displacement_rounding(evidence, &norms, u));
         if dense::worse(error, worst.0) {
             let at = coordinate_name(evidence, norms.largest(dense::column(forces.as_ref(), j)));
             worst = (error, Some(format!("{}, {at}", rigid_name(evidence, j))));
         }
     }
-    let limits = Limits { engineering: 1e-12, ..zero_level(evidence) };
+    let limits = zero_level(evidence);
+    let arithmetic = limits.arithmetic.max(NOISE_FACTOR * of_displacements);
+    let limits = Limits { engineering: 1e-12, arithmetic, ..limits }.capped(LARGEST_ROUNDING, MAX_EXCUSE);
     Check {
         id: "M-12",
         name: "reduced stiffness lets rigid motion pass",
@@ -136,6 +143,17 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
         fail_above: limits.value().max(NOT_FREE),
         worst: worst.1,
     }
+}
+
+/// What a rounding ε of the largest displacement, at every interface dof, makes of the measure of one motion: next to nothing where the motion
+/// works against the stiffness of what it moves, and more where it slides along what has hardly any.
+fn displacement_rounding(evidence: &Evidence<'_>, norms: &Equilibrated, u: &[f64]) -> f64 {
+    let (n_b, k) = (evidence.partition.n_interface(), &evidence.reduction.stiffness);
+    let scales = &scales(evidence.partition)[evidence.partition.n_internal..];
+    let largest = u.iter().zip(scales).fold(0.0f64, |max, (u, scale)| max.max((u * scale).abs()));
+    let force = |i: usize| (0..n_b).map(|j| k[(i, j)].abs() * largest / scales[j]).sum::<f64>();
+    let forces: Vec<f64> = (0..k.nrows()).map(force).collect();
+    f64::EPSILON * norms.backward_error(0.0, u, &forces)
 }
 
 /// M-12, force, as the verification of the file measures it.

@@ -377,7 +377,7 @@ fn attachment_modes_next_to_a_heavy_mass() {
     let mass = block.total_mass(0);
     for (ratio, code) in [(1e2, ExitCode::Done), (4e5, ExitCode::Done), (1e12, ExitCode::ModelPhysics)] {
         let place = Place::with(&carrying(&block, &[23], ratio * mass));
-        let rest = "--rigid-interface a=1,6,11 --interface b=5,20,35,45 --method rubin --modes 5";
+        let rest = "--rigid-interface a=1,6,16 --interface b=5,20,35,45 --method rubin --modes 5";
         let made = place.reduce(&place.model_flags(), rest);
         assert_eq!(made.code, code, "{ratio:e}:\n{}{}", made.out, made.err);
         match code {
