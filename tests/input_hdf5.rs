@@ -439,7 +439,7 @@ fn pointers_that_do_not_rise_from_zero_to_the_number_of_entries_are_refused() {
 
 #[test]
 fn an_index_outside_the_matrix_is_refused() {
-    for index in [2, -1, i64::MAX, i64::MIN] {
+    for index in [2, -1, 1 << 32, i64::MAX, i64::MIN] {
         let error = refusal(&[0, 1, 2], &[0, index], &[1.0, 2.0]);
         assert!(matches!(error, Error::MatrixIndex { position: 1, found, .. } if found == index), "{error}");
     }

@@ -106,6 +106,15 @@ impl<'a> Collector<'a> {
         self
     }
 
+    /// Takes many entries at once.
+    ///
+    /// # Errors
+    /// [`Error::MemoryRead`].
+    pub(super) fn append(&mut self, entries: Triplets) -> Result<()> {
+        self.gathering.append(entries);
+        self.claim.set(self.bytes_of_entry * self.gathering.n_held() as u64)
+    }
+
     fn close_block(&mut self) -> Result<()> {
         let room = if self.gathering.n_entries() > 0 { BLOCK } else { 0 };
         self.gathering.append(std::mem::replace(&mut self.block, Triplets::with_capacity(room)));

@@ -42,6 +42,7 @@ mod harwell_boeing;
 pub mod hdf5;
 mod hdf5_format;
 mod inclusion;
+mod indices;
 mod internal_forces;
 mod labels;
 mod lines;
