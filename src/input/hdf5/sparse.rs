@@ -76,7 +76,7 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
         return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: name });
     }
     h5.keep(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * n as u64)?;
-    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
+    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), layout: None, digest: digest(path)? })
 }
 
 /// A matrix as its group or table has it.
