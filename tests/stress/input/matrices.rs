@@ -142,7 +142,12 @@ fn i_10_counts_that_are_wrong() {
         stiffness_refused(
             text,
             "E-NNZ",
-            &[&format!("found 2 – expected the {declared} that the size line declares"), "cut short"],
+            &[
+                &format!(
+                    "K.mtx:4: entries are missing – found the end of the file after 2 – expected the {declared} that the size line"
+                ),
+                "cut short",
+            ],
         );
     }
 }
