@@ -27,10 +27,25 @@ seeds npz $matrices/*.npz
 seeds npy $matrices/*.npy
 seeds matlab5 $matrices/*.mat
 seeds any_matrix $matrices/k.mtx $matrices/k_labels.mtx $matrices/small.bdf $matrices/string_little.op4 $matrices/k.rsa $matrices/k_csr.npz $matrices/sparse.mat
-seeds dof_map $text/truss.dof $matrices/small.bdf
+seeds dof_map $text/truss.dof $matrices/small.bdf seeds_own/dof_map/*
 seeds node_table $text/truss.csv
 seeds mesh ../fixtures/mesh/*.msh ../fixtures/mesh/*.vtk ../fixtures/mesh/*.vtu ../fixtures/calculix/*.inp ../fixtures/calculix/*.frd
 seeds modes modes/*
+seeds expansion ../fixtures/calculix/*.12d
+seeds job ../examples/*/*.toml
+seeds states seeds_own/states/*
+seeds values seeds_own/values/*
+# A superelement is made by the program itself, so that it is one of this version.
+mkdir -p seeds/superelement corpus/superelement
+cargo run --quiet --release --manifest-path ../Cargo.toml -- reduce ../examples/bracket/job.toml --modes 2 --force --quiet \
+    --output "$PWD/seeds/superelement/bracket.supel" && rm -f seeds/superelement/*.json
+
+# What earlier runs found begins every run anew, and the test fuzz_regressions holds it.
+for folder in regressions/*/; do
+    target="$(basename "$folder")"
+    mkdir -p "seeds/$target"
+    cp "$folder"* "seeds/$target/"
+done
 
 for target in seeds/*/; do
     target="$(basename "$target")"

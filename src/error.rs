@@ -164,12 +164,18 @@ pub enum Error {
     },
     /// Packed data (gzip, bzip2, zstd) are damaged or cut short.
     #[entry("E-PACKED", InputData, "copy or create the file again")]
-    #[error("{}: the {data} are damaged or cut short – {source} – copy or create the file again", path.display())]
+    #[error(
+        "{}: the {data} are damaged or cut short behind the first {} that could be unpacked – {source} – copy or create the file again",
+        path.display(),
+        counted(*unpacked, "byte", "bytes")
+    )]
     PackedDamaged {
         /// The file.
         path: PathBuf,
         /// How they are packed, in words.
         data: &'static str,
+        /// Bytes that were unpacked before the damage.
+        unpacked: u64,
         /// What the decoder said.
         source: std::io::Error,
     },
@@ -235,15 +241,15 @@ pub enum Error {
         /// The line.
         found: String,
     },
-    /// A Matrix Market flavour other than coordinate, real or integer, symmetric or general.
+    /// A Matrix Market flavour other than coordinate or array, real or integer, symmetric or general.
     #[entry(
         "E-FLAVOUR",
         InputData,
-        "export a real coordinate matrix; complex and pattern matrices are no stiffness or mass"
+        "export a real matrix, as coordinate or as array; complex and pattern matrices are no stiffness or mass"
     )]
     #[error(
-        "{}:{line}: a Matrix Market flavour that is not read – found `{found}` – expected `coordinate real` or \
-        `coordinate integer`, each `symmetric` or `general`, or of a further matrix `skew-symmetric`",
+        "{}:{line}: a Matrix Market flavour that is not read – found `{found}` – expected `coordinate` or `array`, of `real` or \
+        `integer`, each `symmetric` or `general`, or of a further matrix `skew-symmetric`",
         path.display()
     )]
     MatrixFlavour {
@@ -376,13 +382,15 @@ pub enum Error {
     /// A file holds fewer entries than it declares.
     #[entry("E-NNZ", InputData, "the file is cut short: export or copy it again")]
     #[error(
-        "{}: entries are missing – found {found} – expected the {declared} that the size line declares – the file may \
-        be cut short: write or copy it again",
+        "{}:{line}: entries are missing – found the end of the file after {found} – expected the {declared} that the size line \
+        declares – the file may be cut short: write or copy it again",
         path.display()
     )]
     EntryCount {
         /// The file.
         path: PathBuf,
+        /// Number of its last line, from 1.
+        line: u64,
         /// Entries declared.
         declared: u64,
         /// Entries found.

@@ -439,7 +439,7 @@ fn pointers_that_do_not_rise_from_zero_to_the_number_of_entries_are_refused() {
 
 #[test]
 fn an_index_outside_the_matrix_is_refused() {
-    for index in [2, -1, i64::MAX, i64::MIN] {
+    for index in [2, -1, 1 << 32, i64::MAX, i64::MIN] {
         let error = refusal(&[0, 1, 2], &[0, index], &[1.0, 2.0]);
         assert!(matches!(error, Error::MatrixIndex { position: 1, found, .. } if found == index), "{error}");
     }
@@ -733,14 +733,24 @@ fn xdmf_geometries_that_are_not_lists_of_points_are_refused() {
 #[test]
 fn no_cut_of_a_file_panics() {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["matlab.mat", "anndata.h5ad", "plain.h5", "mesh.med", "mesh.h5m", "mesh.hmf"] {
-        let bytes = fs::read(fixture(name)).unwrap();
-        let path = folder.path().join(name);
-        // Every length below the first 100 bytes, then a prime step, so that every structure is cut somewhere.
-        for length in (0..100).chain((100..bytes.len()).step_by(89)) {
+    let of_matrices = ["octave.h5", "julia.h5", "binsparse.h5"].map(|name| format!("../matrices/{name}"));
+    let of_meshes = ["box.e", "box.cgns", "box.vtkhdf", "box.hmf"].map(|name| format!("../mesh/{name}"));
+    let own = ["matlab.mat", "anndata.h5ad", "plain.h5", "h5sparse.h5", "exudyn.hdf5", "half.h5"];
+    let meshes = ["mesh.med", "mesh.h5m", "mesh.hmf"];
+    let files = own.into_iter().chain(meshes).map(str::to_owned).chain(of_matrices).chain(of_meshes);
+    for name in files {
+        let bytes = fs::read(fixture(&name)).unwrap();
+        let file = name.rsplit('/').next().unwrap();
+        let path = folder.path().join(file);
+        // Every length of the smallest, and of the others below the first 100 bytes; then a prime step, so that every structure is cut
+        // somewhere.
+        let step = if bytes.len() < 1 << 12 { 1 } else { 89 };
+        for length in (0..100).chain((100..bytes.len()).step_by(step)) {
             fs::write(&path, &bytes[..length]).unwrap();
-            assert!(stiffness(&path, None).is_err(), "{name} cut to {length} bytes");
-            assert!(read_nodes(&path).is_err(), "{name} cut to {length} bytes");
+            for error in [stiffness(&path, None).err(), read_nodes(&path).err()] {
+                let said = error.unwrap_or_else(|| panic!("{name} cut to {length} bytes")).to_string();
+                assert!(said.contains(file), "{name} cut to {length} bytes: {said}");
+            }
         }
     }
 }

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""How fast files are read: Matrix Market next to SciPy and fast_matrix_market, OUTPUT4 next to pyYeti, decks next to meshio.
+"""How fast files are read, and in how much memory: next to SciPy, fast_matrix_market, pyYeti, h5py and meshio.
 
-    benches/peers/reading.py --megabytes 100 [--repeats 5] [--what mtx op4 inp]
+    benches/peers/reading.py --megabytes 100 [--repeats 5] [--what mtx op4 inp rua mat mat73 npz coo.npz]
 
-Needs scipy, fast_matrix_market, pyyeti and meshio. Each run is a process of its own; programs take turns, so that what else the machine
+Needs scipy, fast_matrix_market, pyyeti, h5py and meshio. Each run is a process of its own; programs take turns, so that what else the machine
 does meets all of them. Every program reads the same file. A matrix ends in compressed rows with both triangles: what the others give as
 coordinates is converted, and the time of that is part of theirs in one column and left out in another. Of a deck supel keeps nodes and
-groups, meshio the cells as well, so that one row of supel reads the faces of a patch, too. Writes the medians to benches/results as CSV
+groups, meshio the cells as well, so that one row of supel reads the faces of a patch, too. The peak of memory over the matrix, of 12 bytes
+for each entry, leaves out what the same program takes for a matrix of one row. Writes the medians to benches/results as CSV
 and SVG, with how many times as fast supel is.
 """
 
@@ -24,7 +25,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "benches" / "results"
 
 PEER = """
-import json, os, resource, sys, time
+import json, os, re, sys, time
 name, path, threads = sys.argv[1], sys.argv[2], int(sys.argv[3])
 os.environ["OMP_NUM_THREADS"] = str(threads)
 if name == "fast_matrix_market":
@@ -38,6 +39,22 @@ elif name == "scipy.io.mmread":
 elif name == "pyYeti":
     from pyyeti.nastran import op4
     read = lambda: op4.read(path, justmatrix=True, sparse=True)["kaa"]
+elif name == "scipy.io.hb_read":
+    import scipy.io
+    read = lambda: scipy.io.hb_read(path)
+elif name == "scipy.io.loadmat":
+    import scipy.io
+    read = lambda: scipy.io.loadmat(path)["K"]
+elif name == "scipy.sparse.load_npz":
+    import scipy.sparse
+    read = lambda: scipy.sparse.load_npz(path)
+elif name == "h5py":
+    import h5py, scipy.sparse
+    def read():
+        with h5py.File(path) as file:
+            part = file["K"]
+            n = int(part.attrs["MATLAB_sparse"])
+            return scipy.sparse.csc_matrix((part["data"][:], part["ir"][:], part["jc"][:]), (n, n))
 elif name == "meshio":
     import meshio
     read = lambda: meshio.read(path)
@@ -46,16 +63,98 @@ found = read()
 middle = time.perf_counter()
 items = len(found.points) if name == "meshio" else int(found.tocsr().nnz)
 end = time.perf_counter()
-peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+# What the system counts of a child by getrusage begins with the memory of its parent.
+peak = int(re.search("VmHWM:\\s*(\\d+)", open("/proc/self/status").read())[1]) * 1024
 print(json.dumps({"seconds": end - start, "as_read": middle - start, "items": items, "peak_bytes": peak}))
 """
 
-PEERS = {"mtx": ["fast_matrix_market", "scipy.io.mmread"], "op4": ["pyYeti"], "inp": ["meshio"]}
+PEERS = {
+    "mtx": ["fast_matrix_market", "scipy.io.mmread"],
+    "op4": ["pyYeti"],
+    "inp": ["meshio"],
+    "rua": ["scipy.io.hb_read"],
+    "mat": ["scipy.io.loadmat"],
+    "mat73": ["h5py"],
+    "npz": ["scipy.sparse.load_npz"],
+    "coo.npz": ["scipy.sparse.load_npz"],
+}
+ONE_THREAD = {peer for what, peers in PEERS.items() if what != "mtx" for peer in peers}
 TITLES = {
     "mtx": "Matrix Market of {} MB into compressed rows, both triangles",
     "op4": "OUTPUT4 in text of {} MB into compressed rows",
     "inp": "deck of {} MB: nodes and groups (meshio: and cells)",
+    "rua": "Harwell-Boeing of {} MB into compressed rows",
+    "mat": "MATLAB level 5 of {} MB into compressed rows",
+    "mat73": "MATLAB v7.3 (HDF5) of {} MB into compressed rows",
+    "npz": "NumPy archive of compressed rows, {} MB",
+    "coo.npz": "NumPy archive of coordinates, {} MB, into compressed rows",
 }
+
+
+def banded(n):
+    """A symmetric matrix of order n with up to 81 entries in a row, in compressed columns."""
+    import numpy as np
+    import scipy.sparse as sparse
+
+    rng = np.random.default_rng(7)
+    sides = [(k, rng.standard_normal(max(n - k, 0))) for k in range(41)]
+    sides += [(-k, values) for k, values in sides[1:]]
+    offsets = [k for k, values in sides if len(values)]
+    return sparse.diags([values for _, values in sides if len(values)], offsets, shape=(n, n)).tocsc()
+
+
+def order(megabytes, bytes_of_entry):
+    return max(1, int(megabytes * 1e6 / (bytes_of_entry * 81)))
+
+
+def write_rua(path, megabytes):
+    """Harwell-Boeing with both triangles, in fields of 10 and 25 characters."""
+    k = banded(order(megabytes, 35.7))
+
+    def lines(numbers, form, per_line):
+        texts = [form % number for number in numbers.tolist()]
+        return ["".join(texts[at : at + per_line]) + "\n" for at in range(0, len(texts), per_line)]
+
+    parts = [lines(k.indptr + 1, "%10d", 8), lines(k.indices + 1, "%10d", 8), lines(k.data, "%25.16E", 3)]
+    counts = [len(part) for part in parts]
+    with open(path, "w") as out:
+        out.write(f"{'stiffness':72}{'K':8}\n{sum(counts):14}{counts[0]:14}{counts[1]:14}{counts[2]:14}{0:14}\n")
+        out.write(f"{'RUA':14}{k.shape[0]:14}{k.shape[1]:14}{k.nnz:14}{0:14}\n{'(8I10)':16}{'(8I10)':16}{'(3E25.16)':20}\n")
+        for part in parts:
+            out.writelines(part)
+
+
+def write_mat(path, megabytes):
+    """What MATLAB saves by default, without compression."""
+    import scipy.io
+
+    scipy.io.savemat(path, {"K": banded(order(megabytes, 12))}, appendmat=False)
+
+
+def write_mat73(path, megabytes):
+    """What MATLAB saves with -v7.3: 64-bit indices."""
+    import h5py
+
+    k = banded(order(megabytes, 16))
+    with h5py.File(path, "w") as file:
+        part = file.create_group("K")
+        part.attrs.create("MATLAB_sparse", k.shape[0], dtype="u8")
+        for name, values in [("data", k.data), ("ir", k.indices.astype("u8")), ("jc", k.indptr.astype("u8"))]:
+            part.create_dataset(name, data=values)
+
+
+def write_npz(path, megabytes):
+    import scipy.sparse as sparse
+
+    with open(path, "wb") as out:
+        sparse.save_npz(out, banded(order(megabytes, 12)).tocsr(), compressed=False)
+
+
+def write_coo_npz(path, megabytes):
+    import scipy.sparse as sparse
+
+    with open(path, "wb") as out:
+        sparse.save_npz(out, banded(order(megabytes, 16)).tocoo(), compressed=False)
 
 
 def write_mtx(path, megabytes):
@@ -64,7 +163,7 @@ def write_mtx(path, megabytes):
 
     rng = np.random.default_rng(7)
     per_row, size = 40, megabytes * 1_000_000
-    n = size // (per_row * 36)
+    n = max(1, size // (per_row * 36))
     with open(path, "w") as out:
         out.write(f"%%MatrixMarket matrix coordinate real symmetric\n{n} {n} {sum(min(row + 1, per_row) for row in range(n))}\n")
         for row in range(n):
@@ -82,7 +181,9 @@ def write_op4(path, megabytes):
     import numpy as np
 
     per_column, per_line = 81, 3
-    n, half = megabytes * 1_000_000 // (per_column * 24), per_column // 2
+    n = max(1, megabytes * 1_000_000 // (per_column * 24))
+    half = min(n - 1, per_column // 2)
+    per_column = 2 * half + 1
     rng = np.random.default_rng(7)
     # Column c of the matrix is row c of the band, from half an element above the diagonal to as many below it.
     band = np.zeros((n, per_column))
@@ -108,7 +209,7 @@ def write_op4(path, megabytes):
 
 def write_inp(path, megabytes):
     """A block of quadratic tetrahedra by number: nodes, elements of ten nodes, a set of nodes."""
-    n = megabytes * 1_000_000 // (62 + 75)
+    n = max(20, megabytes * 1_000_000 // (62 + 75))
     with open(path, "w") as out:
         out.write("*NODE, NSET=ALL\n")
         out.writelines(f"{k + 1}, {k * 1e-3:.10e}, {k % 97 * 1e-2:.10e}, {k % 89 * 1e-2:.10e}\n" for k in range(n))
@@ -118,7 +219,19 @@ def write_inp(path, megabytes):
         out.writelines(f"{k + 1}, {k + 2}, {k + 3}, {k + 4}\n" for k in range(0, min(n, 4000), 4))
 
 
-WRITERS = {"mtx": write_mtx, "op4": write_op4, "inp": write_inp}
+# The most memory over the matrix that supel may take.
+MAX_PEAK = 2.5
+
+WRITERS = {
+    "mtx": write_mtx,
+    "op4": write_op4,
+    "inp": write_inp,
+    "rua": write_rua,
+    "mat": write_mat,
+    "mat73": write_mat73,
+    "npz": write_npz,
+    "coo.npz": write_coo_npz,
+}
 
 
 def run(command):
@@ -132,24 +245,27 @@ def measured(what, arguments):
     """Medians of all programs on the file of a format."""
     folder = ROOT / "target" / "parts"
     folder.mkdir(parents=True, exist_ok=True)
-    path = folder / f"reading-{arguments.megabytes}.{what}"
-    if not path.exists():
-        WRITERS[what](path, arguments.megabytes)
+    path, tiny = folder / f"reading-{arguments.megabytes}.{what}", folder / f"reading-0.{what}"
+    for megabytes, file in ((arguments.megabytes, path), (0, tiny)):
+        if not file.exists():
+            WRITERS[what](file, megabytes)
     with open(path, "rb") as file:
         while file.read(1 << 24):
             pass
     own = [arguments.bench] if arguments.bench else ["cargo", "bench", "--quiet", "--bench", "reading", "--"]
-    runs = {}
-    for _ in range(arguments.repeats):
+    runs, bases = {}, {}
+    for repeat in range(arguments.repeats):
         for threads in (1, 2):
             for program in ("supel", *PEERS[what]):
                 # Programs with one thread are measured once.
-                if threads == 2 and program in ("pyYeti", "meshio"):
+                if threads == 2 and program in ONE_THREAD:
                     continue
-                words = [*own, str(path), str(threads)] if program == "supel" else [sys.executable, "-c", PEER, program, str(path), str(threads)]
+                before = own if program == "supel" else [sys.executable, "-c", PEER, program]
                 # One thread has one core: supel reads the file in a thread of its own.
-                words = ["taskset", "-c", "0", *words] if threads == 1 else words
-                runs.setdefault((program, threads), []).append(run(words))
+                before = ["taskset", "-c", "0", *before] if threads == 1 else before
+                runs.setdefault((program, threads), []).append(run([*before, str(path), str(threads)]))
+                if repeat == 0:
+                    bases[program, threads] = run([*before, str(tiny), str(threads)])["peak_bytes"]
     items = {found["items"] for all_runs in runs.values() for found in all_runs}
     assert len(items) == 1, f"the programs read different files: {items}"
     median = lambda found, key: statistics.median(item[key] for item in found if key in item)
@@ -169,8 +285,9 @@ def measured(what, arguments):
             "megabytes_per_s": round(size / 1e6 / seconds, 1),
             "supel_times_as_fast": round(seconds / against, 2) if is_peer else "",
             "supel_times_as_fast_as_coordinates": round(median(found, "as_read") / against, 2) if is_peer and what != "inp" else "",
-            "peak_over_matrix": round(median(found, "peak_bytes") / (12 * items.copy().pop()), 2) if what != "inp" else "",
+            "peak_over_matrix": round((median(found, "peak_bytes") - bases[program, threads]) / (12 * items.copy().pop()), 2) if what != "inp" else "",
             "peak_mib": round(median(found, "peak_bytes") / 2**20),
+            "base_mib": round(bases[program, threads] / 2**20),
         })
     return rows
 
@@ -216,6 +333,10 @@ def main():
         writer.writerows(rows)
     svg(rows, path.with_suffix(".svg"))
     print(path.read_text())
+    # Of small files the buffers of a reader are as large as the matrix.
+    beyond = [row for row in rows if row["program"] == "supel" and row["peak_over_matrix"] != "" and row["peak_over_matrix"] > MAX_PEAK]
+    if beyond and arguments.megabytes >= 100:
+        raise SystemExit(f"more than {MAX_PEAK} times the matrix: {beyond}")
 
 
 if __name__ == "__main__":

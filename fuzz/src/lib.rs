@@ -1,5 +1,7 @@
-//! What the targets call: a file of any content, read as a matrix, a dof map, nodes, a mesh or modes. A reader gives a value or an error, and takes no
-//! more memory than a multiple of the file.
+//! What the targets call: a file of any content, read as a matrix, a dof map, nodes, a mesh, modes, frequencies, a superelement, a job or
+//! states. A reader gives a value or an error, and takes no more memory than a multiple of the file.
+//!
+//! The test `fuzz_regressions` of the program has this file, too: it hands every file of `regressions` to the target of its folder.
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -7,9 +9,10 @@ use std::path::Path;
 use supel::dofs::{Direction, Dof};
 use supel::error::Selector;
 use supel::input::{
-    Allowance, MeshInput, ModeRows, Patch, Patches, SingleMatrix, foreign_modes, nodes, patch_faces, read,
+    Allowance, MeshInput, ModeRows, ModeValues, Patch, Patches, SingleMatrix, StateTable, ValueSource, ValueUnit,
+    foreign_modes, nodes, patch_faces, read, superelement,
 };
-use supel::job::{Layout, ModelJob};
+use supel::job::{Job, Layout, ModelJob};
 
 /// Memory that reading may claim.
 const ALLOWANCE: u64 = 1 << 30;
@@ -71,6 +74,70 @@ pub fn read_modes(content: &[u8]) {
         match foreign_modes(path, &rows, &Allowance::of(Some(ALLOWANCE))) {
             Ok(read) => assert!(read.columns.iter().all(|column| column.iter().all(|value| value.is_finite()))),
             Err(error) => assert!(!error.to_string().is_empty()),
+        }
+    });
+}
+
+/// Reads a content as a superelement.
+pub fn read_superelement(content: &[u8]) {
+    with_file(content, |path| {
+        if let Err(error) = superelement(path) {
+            assert!(!error.to_string().is_empty());
+        }
+    });
+}
+
+/// Reads a content as a job, in text or as the document that a program writes.
+pub fn read_job(content: &[u8]) {
+    with_file(content, |path| {
+        if let Err(error) = Job::read(path).and_then(|job| job.validate()) {
+            assert!(!error.to_string().is_empty());
+        }
+    });
+}
+
+/// Reads a content as states of a superelement of three coordinates.
+pub fn read_states(content: &[u8]) {
+    let names = ["a ux", "b uy", "mode 1"].map(str::to_owned);
+    with_file(content, |path| {
+        let Ok(mut table) = StateTable::open(path, &names) else { return };
+        let mut values = [0.0; 3];
+        while let Ok(Some(_)) = table.advance(&mut values) {
+            assert!(values.iter().all(|value| value.is_finite()));
+        }
+    });
+}
+
+/// Reads a content as the frequencies of two modes.
+pub fn read_values(content: &[u8]) {
+    with_file(content, |path| {
+        let source = ValueSource::File(path.to_owned());
+        match ModeValues::read(ValueUnit::Hertz, &source, 2, &Allowance::of(Some(ALLOWANCE))) {
+            Ok(values) => assert_eq!(values.numbers.len(), 2),
+            Err(error) => assert!(!error.to_string().is_empty()),
+        }
+    });
+}
+
+/// Reads a content as what CalculiX lists of the nodes that it made of those of shells, `JOB.12d`.
+pub fn read_expansion(content: &[u8]) {
+    const FILES: [(&str, &[u8]); 5] = [
+        ("plate.sti.gz", include_bytes!("../../fixtures/calculix/plate.sti.gz")),
+        ("plate.mas.gz", include_bytes!("../../fixtures/calculix/plate.mas.gz")),
+        ("plate.dof", include_bytes!("../../fixtures/calculix/plate.dof")),
+        ("plate.inp", include_bytes!("../../fixtures/calculix/plate.inp")),
+        ("plate.frd", include_bytes!("../../fixtures/calculix/plate.frd")),
+    ];
+    FOLDER.with_borrow(|folder| {
+        let at = |name: &str| folder.path().join(name);
+        for (name, bytes) in FILES.iter().filter(|(name, _)| !at(name).exists()) {
+            std::fs::write(at(name), bytes).expect("written");
+        }
+        std::fs::write(at("plate.12d"), content).expect("written");
+        let (dofs, nodes) = (Some(at("plate.dof")), Some(at("plate.inp")));
+        let (stiffness, mass) = (at("plate.sti.gz"), Some(at("plate.mas.gz")));
+        if let Err(error) = read(&ModelJob { stiffness, mass, dofs, nodes, ..ModelJob::default() }) {
+            assert!(!error.to_string().is_empty());
         }
     });
 }

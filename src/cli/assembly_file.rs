@@ -50,3 +50,32 @@ impl AssemblyFile {
         Ok(Self { jobs: document.component.into_iter().map(located).collect(), joins: document.join })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A document cut anywhere or with a byte changed is an assembly or an error that names the file, and a cut one lacks something.
+    #[test]
+    fn damaged_documents_are_refused_by_name() {
+        const TEXT: &str = "join = [\"a.left=b.right\"]\n[[component]]\nname = \"a\"\njob = \"a.toml\"\n";
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("assembly.toml");
+        let read = |content: &[u8]| {
+            std::fs::write(&path, content).expect("written");
+            AssemblyFile::read(&path).map_err(|error| error.to_string())
+        };
+        assert_eq!(read(TEXT.as_bytes()).expect("an assembly").joins, ["a.left=b.right"]);
+        for end in 0..TEXT.len() - 1 {
+            let said = read(&TEXT.as_bytes()[..end]).expect_err("a part of it");
+            assert!(said.contains("assembly.toml"), "{end}: {said}");
+        }
+        for (at, byte) in (0..TEXT.len()).flat_map(|at| [b'"', b'[', 0, 0xff, b'\n', b'='].map(|byte| (at, byte))) {
+            let mut changed = TEXT.as_bytes().to_vec();
+            changed[at] = byte;
+            if let Err(said) = read(&changed) {
+                assert!(said.contains("assembly.toml"), "{at}: {said}");
+            }
+        }
+    }
+}

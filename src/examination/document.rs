@@ -6,6 +6,7 @@ use serde_json::json;
 use super::examined::Examined;
 use crate::error::Result;
 use crate::input::MatrixFacts;
+use crate::job::Layout;
 use crate::report::{Generator, json_text};
 
 /// Version of the document's layout.
@@ -24,7 +25,16 @@ impl Examined {
 impl Serialize for Examined {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
         let Self { findings, grounded, n_massless, extents, units, interfaces, facts, body, .. } = self;
-        let matrix = |facts: &MatrixFacts| json!({ "n_nonzeros": facts.n_nonzeros, "digits": facts.digits.significant, "digest": facts.digest });
+        let matrix = |facts: &MatrixFacts| {
+            let format = facts.layout.map(Layout::name);
+            json!({
+                "n_nonzeros": facts.n_nonzeros,
+                "digits": facts.digits.significant,
+                "format": format,
+                "triangle": facts.triangle,
+                "digest": facts.digest,
+            })
+        };
         let matrices = facts.as_ref().map(|facts| facts.matrices.each_ref().map(matrix));
         let mut document = serializer.serialize_struct("Examination", 14)?;
         document.serialize_field("format_version", &FORMAT_VERSION)?;

@@ -217,20 +217,7 @@ fn of_body(body: &ReportBody) -> Vec<Finding> {
     let failed = body.checks.iter().filter(|check| check.verdict() == Verdict::Fail);
     findings.extend(failed.map(Finding::of_check));
     let is_told = |note: &&String| !findings.iter().any(|finding| finding.what == **note);
-    let notes: Vec<Finding> = body
-        .model
-        .notes
-        .iter()
-        .filter(is_told)
-        .map(|note| Finding {
-            severity: Severity::Remark,
-            code: None,
-            what: note.clone(),
-            remedy: String::new(),
-            lines: Vec::new(),
-            went_on: None,
-        })
-        .collect();
+    let notes: Vec<Finding> = body.model.notes.iter().filter(is_told).map(|note| Finding::of_note(note)).collect();
     findings.extend(notes);
     findings
 }

@@ -60,7 +60,7 @@ impl Finding {
     pub(super) fn of_warning(warning: &Warning) -> Self {
         let (what, remedy) = match warning.message.rsplit_once("; ") {
             Some((what, remedy)) => (what.to_owned(), remedy.to_owned()),
-            None => (warning.message.clone(), String::new()),
+            None => (warning.message.clone(), format!("`supel explain {}` says what to do", warning.code)),
         };
         let (remedy, lines) = match warning.code {
             "W-DATA-PRECISION" => (
@@ -73,6 +73,14 @@ impl Finding {
             _ => (remedy, Vec::new()),
         };
         Self { severity: Severity::Warning, code: Some(warning.code), what, remedy, lines, went_on: None }
+    }
+
+    /// A remark of a reader or of the model: where it asks for something, that stands behind its last semicolon.
+    pub(super) fn of_note(note: &str) -> Self {
+        const NOTHING: &str = "nothing, if that is what is meant";
+        let (what, remedy) = note.rsplit_once("; ").unwrap_or((note, NOTHING));
+        let [what, remedy] = [what, remedy].map(str::to_owned);
+        Self { severity: Severity::Remark, code: None, what, remedy, lines: Vec::new(), went_on: None }
     }
 
     /// A check that failed.

@@ -9,6 +9,7 @@ use crate::number::{counted, quantity, scientific};
 use crate::report::page::{Page, Paint, Tone, WIDTH};
 use crate::report::summary::body::mass_properties;
 use crate::report::{Generator, ModelReport, ReportBody, table};
+use crate::sparse::Triangle;
 use crate::verification::check::Verdict;
 
 /// Groups that are listed.
@@ -135,7 +136,20 @@ pub(super) fn on_surface(surface: &Surface) -> String {
 fn matrix(facts: &MatrixFacts, symmetry: &str) -> String {
     let digest: String = facts.digest.chars().take(12).collect();
     let nonzeros = counted(facts.n_nonzeros, "nonzero", "nonzeros");
-    format!("{nonzeros}, both triangles counted · {symmetry} · {} · blake3 {digest}…", facts.digits.in_words())
+    let mut parts = vec![format!("{nonzeros}, both triangles counted")];
+    parts.extend(facts.layout.map(|layout| format!("from {}", layout.name())));
+    parts.push(stored(facts.triangle).to_owned());
+    parts.extend([symmetry.to_owned(), facts.digits.in_words(), format!("blake3 {digest}…")]);
+    parts.join(" · ")
+}
+
+/// Which triangles a file has.
+fn stored(triangle: Option<Triangle>) -> &'static str {
+    match triangle {
+        Some(Triangle::Lower) => "lower triangle stored",
+        Some(Triangle::Upper) => "upper triangle stored",
+        None => "both triangles stored",
+    }
 }
 
 fn modes(page: &mut Page, body: &ReportBody) {

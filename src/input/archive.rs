@@ -38,8 +38,10 @@ impl<'a> Archive<'a> {
             found,
             expected: "a zip archive that is whole".into(),
         };
-        let in_index = |error: rawzip::Error| damaged("its index", error.to_string());
         let file: File = regular_file::open(path)?;
+        let n_bytes = file.metadata().map_err(|source| Error::Read { path: path.to_owned(), source })?.len();
+        let index = format!("the index at its end, byte {n_bytes}");
+        let in_index = |error: rawzip::Error| damaged(&index, error.to_string());
         let mut buffer = vec![0; RECOMMENDED_BUFFER_SIZE];
         let zip = ZipArchive::from_file(file, &mut buffer).map_err(in_index)?;
         let mut members = Vec::new();
@@ -49,12 +51,12 @@ impl<'a> Archive<'a> {
             let (place, method) = (entry.wayfinder(), entry.compression_method());
             members.push(Member { name, place, method, is_encrypted: entry.flags().is_encrypted() });
             if members.len() > MAX_MEMBERS {
-                return Err(damaged("its index", format!("more than {MAX_MEMBERS} members")));
+                return Err(damaged(&index, format!("more than {MAX_MEMBERS} members")));
             }
         }
         if zip.entries_hint() != members.len() as u64 {
             let found = format!("{} members, of which its end announces {}", members.len(), zip.entries_hint());
-            return Err(damaged("its index", found));
+            return Err(damaged(&index, found));
         }
         Ok(Self { path, format, zip, members })
     }

@@ -49,7 +49,7 @@ pub(super) fn assembled(found: Found, source: &MatrixSource<'_>, claim: &Claim<'
     notes.most_repeated += most_merged;
     claim.set(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * u64::from(n))?;
     notes.most_alike = most_alike.filter(|_| notes.most_repeated > 0);
-    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: found.digest })
+    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), layout: None, digest: found.digest })
 }
 
 /// Refuses to make row pointers of a size that only an index or a header promises.
@@ -104,6 +104,15 @@ impl<'a> Collector<'a> {
             *index = number[*index as usize];
         }
         self
+    }
+
+    /// Takes many entries at once.
+    ///
+    /// # Errors
+    /// [`Error::MemoryRead`].
+    pub(super) fn append(&mut self, entries: Triplets) -> Result<()> {
+        self.gathering.append(entries);
+        self.claim.set(self.bytes_of_entry * self.gathering.n_held() as u64)
     }
 
     fn close_block(&mut self) -> Result<()> {

@@ -7,6 +7,7 @@ use super::assembled::{Found, assembled, bytes_of_entry};
 use super::digits::digits_of;
 use super::format::MatrixSource;
 use super::gathering::Gathered;
+use super::indices::Indices;
 use crate::error::{Error, Result};
 use crate::number::counted;
 use crate::regular_file::digest;
@@ -27,7 +28,7 @@ pub(super) struct Compressed {
     /// Rows and columns as stated.
     shape: [u64; 2],
     pointers: Vec<i64>,
-    indices: Vec<i64>,
+    indices: Indices,
     values: Vec<f64>,
     /// What messages call pointers, indices and values, by where they are in the file.
     names: [String; 3],
@@ -38,7 +39,7 @@ impl Compressed {
         major: Major,
         shape: [u64; 2],
         pointers: Vec<i64>,
-        indices: Vec<i64>,
+        indices: Indices,
         values: Vec<f64>,
         names: [String; 3],
     ) -> Self {
@@ -57,11 +58,12 @@ impl Compressed {
             let [first, last] = [ends[0], ends[1]].map(|end| usize::try_from(end).unwrap_or(usize::MAX));
             let entries = self
                 .indices
+                .numbers()
                 .get(first..last)
                 .unwrap_or_default()
                 .iter()
                 .zip(self.values.get(first..last).unwrap_or_default());
-            entries.into_iter().any(|(minor, value)| *minor == major && *value != 0.0)
+            entries.into_iter().any(|(minor, value)| i64::from(*minor) == major && *value != 0.0)
         })
     }
 
@@ -112,22 +114,14 @@ impl Compressed {
             Major::Columns => self.shape[0],
         };
         let majors = majors(&self.pointers);
-        let minors = self
-            .indices
-            .iter()
-            .enumerate()
-            .map(|(position, &index)| match u32::try_from(index) {
-                Ok(minor) if u64::from(minor) < n => Ok(minor),
-                _ => Err(Error::MatrixIndex {
-                    path: path.to_owned(),
-                    array: self.names[1].clone(),
-                    position,
-                    found: index,
-                    first: 0,
-                    last: n as i64 - 1,
-                }),
-            })
-            .collect::<Result<Vec<u32>>>()?;
+        let minors = self.indices.below(n).map_err(|(position, found)| Error::MatrixIndex {
+            path: path.to_owned(),
+            array: self.names[1].clone(),
+            position,
+            found,
+            first: 0,
+            last: n as i64 - 1,
+        })?;
         let (rows, cols) = match self.major {
             Major::Rows => (majors, minors),
             Major::Columns => (minors, majors),

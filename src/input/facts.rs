@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{Digits, FurtherMatrix, Input, InputNote, LoadColumn, MatrixInput, ModeColumns, PatchFaces, QuantityRows};
 use crate::error::Warning;
-use crate::job::LoadJob;
+use crate::job::{Layout, LoadJob};
+use crate::sparse::Triangle;
 
 /// What is remembered of the input after its matrices have gone into the model.
 #[derive(Clone, Debug)]
@@ -35,6 +36,10 @@ pub struct MatrixFacts {
     pub n_nonzeros: usize,
     /// How many digits or decimals its entries carry.
     pub digits: Digits,
+    /// The format of its file; none where it is from no file.
+    pub layout: Option<Layout>,
+    /// The only triangle that the file has; none where it has entries in both.
+    pub triangle: Option<Triangle>,
     /// BLAKE3 of the file.
     pub digest: String,
 }
@@ -45,6 +50,8 @@ impl InputFacts {
         let facts = |matrix: &MatrixInput| MatrixFacts {
             n_nonzeros: matrix.matrix.nnz(),
             digits: matrix.digits,
+            layout: matrix.layout,
+            triangle: matrix.notes.triangle,
             digest: matrix.digest.clone(),
         };
         Self {

@@ -16,15 +16,15 @@ use super::compressed::{Compressed, Major};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
 use super::fortran::{Fields, Values, whole};
+use super::indices::Indices;
 use super::lines::Lines;
+use super::raw_numbers::room;
 use crate::error::{Error, Result};
 use crate::job::Layout;
 use crate::sparse::Declared;
 
 const FORMAT: &str = "Harwell-Boeing";
 const EXPECTED: &str = "a real assembled square matrix with values: RSA, RUA, or RZA for a further matrix";
-/// Room that is made at once for numbers that are only promised.
-const MAX_PROMISED: u64 = 1 << 20;
 
 /// Harwell-Boeing and Rutherford-Boeing.
 pub(super) struct HarwellBoeing;
@@ -60,12 +60,26 @@ impl MatrixFormat for HarwellBoeing {
             lines.advance()?;
         }
         let n_pointers = kind.n_columns.saturating_add(1);
-        let pointers =
-            read(&mut lines, of_pointers, n_pointers, |field| Some(whole(field)?.saturating_sub(1)), "a pointer")?;
-        let indices =
-            read(&mut lines, of_indices, kind.n_entries, |field| Some(whole(field)?.saturating_sub(1)), "a row")?;
+        let from_zero = |field: &[u8]| Some(whole(field)?.saturating_sub(1));
+        let mut pointers = Vec::with_capacity(room(n_pointers));
+        let take = |field: &[u8]| {
+            pointers.push(from_zero(field)?);
+            Some(())
+        };
+        read(&mut lines, (of_pointers, n_pointers), take, "a pointer")?;
+        let mut indices = Indices::with_capacity(room(kind.n_entries));
+        let take = |field: &[u8]| {
+            indices.push(from_zero(field)?);
+            Some(())
+        };
+        read(&mut lines, (of_indices, kind.n_entries), take, "a row")?;
         let kept = kind.values();
-        let values = read(&mut lines, of_values, kind.n_entries, |field| kept.of_field(field), kept.expected())?;
+        let mut values = Vec::with_capacity(room(kind.n_entries));
+        let take = |field: &[u8]| {
+            values.push(kept.of_field(field)?);
+            Some(())
+        };
+        read(&mut lines, (of_values, kind.n_entries), take, kept.expected())?;
         // What follows may be right-hand sides; a packed file shows at its end whether it is whole.
         lines.digest()?;
         let names = ["pointers (less 1)", "rows (less 1)", "values"].map(str::to_owned);
@@ -145,15 +159,13 @@ fn formats(line: &[u8]) -> Option<[Fields; 3]> {
     in_columns().or_else(|| Some([word()?, word()?, word()?])).filter(|_| begins)
 }
 
-/// The next numbers, each parsed from its field.
-fn read<T>(
+/// Hands the fields of the next n numbers to `take`, which says whether a field holds one.
+fn read(
     lines: &mut Lines<'_>,
-    fields: Fields,
-    n: u64,
-    parse: impl Fn(&[u8]) -> Option<T>,
+    (fields, n): (Fields, u64),
+    mut take: impl FnMut(&[u8]) -> Option<()>,
     expected: &str,
-) -> Result<Vec<T>> {
-    let mut values = Vec::with_capacity(n.min(MAX_PROMISED) as usize);
+) -> Result<()> {
     let mut left = n;
     while left > 0 {
         lines.advance()?;
@@ -174,10 +186,9 @@ fn read<T>(
         for at in 0..n_fields {
             // SciPy writes fields narrower than its own format says, with blanks between them.
             let field = if words.len() == n_fields { words[at] } else { fields.field(line, at) };
-            let value = parse(field);
-            values.push(value.ok_or_else(|| wrong(lines, &format!("{expected} in field {}", at + 1)))?);
+            take(field).ok_or_else(|| wrong(lines, &format!("{expected} in field {}", at + 1)))?;
         }
         left -= n_fields as u64;
     }
-    Ok(values)
+    Ok(())
 }

@@ -68,7 +68,8 @@ pub(super) fn read(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
             Declared::Skew => own * (own - 1) / 2,
             Declared::General | Declared::OneHolds | Declared::Whole => own * own,
         };
-        return Err(Error::EntryCount { path: source.file.clone(), declared, found: n_read });
+        let (path, line) = (source.file.clone(), lines.number().saturating_sub(1));
+        return Err(Error::EntryCount { path, line, declared, found: n_read });
     }
     entries.into_matrix(source, (n, declared), lines.digest()?).map(ReadMatrix::with_size)
 }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::allowance::Claim;
 use super::assembled::{Found, assembled, bytes_of_entry};
 use super::banner::{Head, HeadReader, square_order};
-use super::blocks::{BLOCK_BYTES, for_each_batch};
+use super::blocks::{BLOCK_BYTES, LastLine, for_each_batch};
 use super::entries::{Entries, Fault, parse_entries};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, OrderSource, ReadMatrix, Sureness};
@@ -83,15 +83,16 @@ fn read_in_blocks(source: &MatrixSource<'_>, block_bytes: usize) -> Result<ReadM
     let Some(head) = reading.head else {
         return Err(reading.head_reader.ended_early());
     };
-    let Reading { entries, claim, written, .. } = reading;
+    let Reading { entries, claim, written, n_lines, .. } = reading;
+    let last_line = n_lines + u64::from(ending.last_line == LastLine::Open);
     let n_read = entries.n_entries();
     let (n, declared, order, gathered) = match head {
         Head::Coordinate { n, n_entries, declared, .. } => {
-            check_count(path, n_entries, n_read)?;
+            check_count((path, last_line), n_entries, n_read)?;
             (n, declared, OrderSource::SizeLine, entries.all())
         }
         Head::Headerless { first, line } => {
-            let (n, order) = headerless_order(path, &entries, first, line)?;
+            let (n, order) = headerless_order((path, last_line), &entries, first, line)?;
             let gathered = if order == OrderSource::SizeLine { entries.rest() } else { entries.all() };
             (n, Declared::General, order, gathered)
         }
@@ -167,7 +168,7 @@ impl Reading<'_> {
 
 /// The order of a matrix without a banner, whose first line may be a bare size line.
 fn headerless_order(
-    path: &Path,
+    (path, last_line): (&Path, u64),
     entries: &Gathering,
     first: Option<[u64; 3]>,
     line: u64,
@@ -177,7 +178,7 @@ fn headerless_order(
         let holds_rest = n_rest > 0 && rows.min(cols) >= entries.largest_index_of_rest();
         // A count of entries below the order would be an odd matrix, but an ordinary value.
         if holds_rest && (declared == n_rest || (rows == cols && declared >= rows)) {
-            check_count(path, declared, n_rest)?;
+            check_count((path, last_line), declared, n_rest)?;
             let n = square_order(path, line, rows, cols)?;
             return Ok((n, OrderSource::SizeLine));
         }
@@ -186,11 +187,11 @@ fn headerless_order(
     Ok((square_order(path, line, n, n)?, OrderSource::LargestIndex))
 }
 
-fn check_count(path: &Path, declared: u64, found: u64) -> Result<()> {
+fn check_count((path, line): (&Path, u64), declared: u64, found: u64) -> Result<()> {
     if found == declared {
         return Ok(());
     }
-    Err(Error::EntryCount { path: path.to_owned(), declared, found })
+    Err(Error::EntryCount { path: path.to_owned(), line, declared, found })
 }
 
 #[cfg(test)]
@@ -198,7 +199,6 @@ mod tests {
     use super::*;
     use crate::input::MatrixRole;
     use crate::input::allowance::Allowance;
-    use crate::input::blocks::LastLine;
 
     fn read_in_blocks(path: &Path, block_bytes: usize) -> Result<ReadMatrix> {
         let (file, role, allowance) = (path.to_owned(), MatrixRole::Stiffness, &Allowance::of(None));

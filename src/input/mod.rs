@@ -42,6 +42,7 @@ mod harwell_boeing;
 pub mod hdf5;
 mod hdf5_format;
 mod inclusion;
+mod indices;
 mod internal_forces;
 mod labels;
 mod lines;
@@ -130,6 +131,7 @@ pub use value_unit::ValueUnit;
 
 use std::path::PathBuf;
 
+use crate::job::Layout;
 use crate::sparse::{AssemblyNotes, SparseMatrix};
 
 /// A square matrix as it was read.
@@ -143,6 +145,8 @@ pub struct MatrixInput {
     pub digits: Digits,
     /// The file.
     pub path: PathBuf,
+    /// The format that the file is in; none of a matrix that is from no file.
+    pub layout: Option<Layout>,
     /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.
     pub digest: String,
 }

@@ -248,7 +248,11 @@ pub(super) fn read_matrix(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
             Some(name) if !format.has_members() => {
                 Err(Error::MatrixName { path: source.file.clone(), name: name.clone(), holds: Vec::new() })
             }
-            _ => format.read(source),
+            _ => {
+                let mut read = format.read(source)?;
+                read.input.layout = Some(format.layout());
+                Ok(read)
+            }
         }
     })
 }

@@ -7,6 +7,7 @@ use super::assembled::Collector;
 use super::compressed::{Compressed, Major, order};
 use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
+use super::indices::Indices;
 use super::mode_format::{ModeSource, ReadModes};
 use super::named::chosen;
 use super::numpy_array::{Array, Reals};
@@ -14,6 +15,7 @@ use super::{MatrixInput, MatrixRole};
 use crate::error::{Error, Result};
 use crate::job::Layout;
 use crate::regular_file::digest;
+use crate::sparse::Triplets;
 
 const FORMAT: &str = "NumPy archive";
 const EXPECTED: &str =
@@ -136,7 +138,7 @@ impl Reading<'_> {
 
     fn compressed(&self, major: Major, shape: [u64; 2]) -> Result<MatrixInput> {
         let pointers = self.array("indptr.npy")?.wholes()?;
-        let indices = self.array("indices.npy")?.wholes()?;
+        let indices = self.array("indices.npy")?.indices()?;
         let Reals { values, digits } = self.array("data.npy")?.reals()?;
         let names = ["indptr.npy", "indices.npy", "data.npy"].map(str::to_owned);
         let compressed = Compressed::new(major, shape, pointers, indices, values, names);
@@ -146,22 +148,24 @@ impl Reading<'_> {
     fn coordinate(&self, shape: [u64; 2]) -> Result<MatrixInput> {
         let n = order(self.path(), "the matrix", shape)?;
         let [rows, columns] = if self.archive.has("coords.npy") {
-            let mut rows = self.array("coords.npy")?.wholes()?;
+            let mut rows = self.array("coords.npy")?.indices()?;
             let columns = rows.split_off(rows.len() / 2);
             [rows, columns]
         } else {
-            [self.array("row.npy")?.wholes()?, self.array("col.npy")?.wholes()?]
+            [self.array("row.npy")?.indices()?, self.array("col.npy")?.indices()?]
         };
         let Reals { values, digits } = self.array("data.npy")?.reals()?;
         if rows.len() != values.len() || columns.len() != values.len() {
             let found = format!("{} values for {} rows and {} columns", values.len(), rows.len(), columns.len());
             return Err(self.wrong("data.npy", found, "as many of each"));
         }
-        let mut entries = self.collector();
-        for (at, value) in values.iter().enumerate() {
-            let row = self.index("row.npy", at, rows[at], n)?;
-            self.push(&mut entries, [row, self.index("col.npy", at, columns[at], n)?], *value)?;
+        let (rows, cols) = (self.below(n, "row.npy", rows)?, self.below(n, "col.npy", columns)?);
+        let is_bad = values.iter().position(|value| !value.is_finite());
+        if let Some(at) = is_bad {
+            return Err(self.not_finite([rows[at], cols[at]], values[at]));
         }
+        let mut entries = self.collector();
+        entries.append(Triplets { rows, cols, values })?;
         self.finished(entries, n, digits)
     }
 
@@ -169,7 +173,7 @@ impl Reading<'_> {
     fn blocks(&self, shape: [u64; 2]) -> Result<MatrixInput> {
         let n = order(self.path(), "the matrix", shape)?;
         let pointers = self.array("indptr.npy")?.wholes()?;
-        let indices = self.array("indices.npy")?.wholes()?;
+        let indices = self.array("indices.npy")?.indices()?;
         let data = self.array("data.npy")?;
         let shape = data.header.shape.clone();
         let Reals { values, digits } = data.reals()?;
@@ -197,6 +201,7 @@ impl Reading<'_> {
                 self.push(&mut entries, [row as u32, col as u32], *value)?;
             }
         }
+        drop(values);
         self.finished(entries, n, digits)
     }
 
@@ -221,6 +226,7 @@ impl Reading<'_> {
                 }
             }
         }
+        drop(values);
         self.finished(entries, n, digits)
     }
 
@@ -232,14 +238,18 @@ impl Reading<'_> {
         if value.is_finite() {
             return entries.push(row, col, value);
         }
-        let (path, matrix) = (self.source.file.clone(), "data.npy".to_owned());
-        let (row, col) = (u64::from(row) + 1, u64::from(col) + 1);
-        Err(Error::MatrixNotFinite { path, matrix, row, col, value })
+        Err(self.not_finite([row, col], value))
     }
 
-    fn index(&self, array: &str, position: usize, found: i64, n: u32) -> Result<u32> {
-        let index = u32::try_from(found).ok().filter(|index| *index < n);
-        index.ok_or_else(|| {
+    fn not_finite(&self, [row, col]: [u32; 2], value: f64) -> Error {
+        let (path, matrix) = (self.source.file.clone(), "data.npy".to_owned());
+        let (row, col) = (u64::from(row) + 1, u64::from(col) + 1);
+        Error::MatrixNotFinite { path, matrix, row, col, value }
+    }
+
+    /// The indices of an array of this name.
+    fn below(&self, n: u32, array: &str, indices: Indices) -> Result<Vec<u32>> {
+        indices.below(n.into()).map_err(|(position, found)| {
             let (path, array, last) = (self.source.file.clone(), array.to_owned(), i64::from(n) - 1);
             Error::MatrixIndex { path, array, position, found, first: 0, last }
         })

@@ -6,12 +6,14 @@ use std::path::Path;
 use super::assembled::Collector;
 use super::compressed::order;
 use super::format::MatrixSource;
+use super::indices::Indices;
 use super::mode_format::{ModeSource, ReadModes};
 use super::mode_matrix::{NUMBER, Order, checked_count, columns_of, refuse_not_finite};
 use super::npy_header::{Failure as NoHeader, Header};
 use super::raw_numbers::{self, Endian, Failure, Kind, fill};
 use super::source::read_error;
 use crate::error::{Error, Result};
+use crate::number::counted;
 use crate::sparse::Declared;
 
 /// The longest text that is read: the name of a format of SciPy.
@@ -78,7 +80,8 @@ impl<'a, R: Read> Array<'a, R> {
     pub(super) fn open(path: &'a Path, format: &'static str, name: &'a str, mut numbers: R) -> Result<Self> {
         let header = Header::read(&mut numbers).map_err(|failure| match failure {
             NoHeader::Found(found) => {
-                let (path, place, expected) = (path.to_owned(), name.to_owned(), "a header of numpy.save".to_owned());
+                let (path, place) = (path.to_owned(), format!("the header of {name}, byte 0"));
+                let expected = "a header of numpy.save".to_owned();
                 Error::MatrixFormat { path, format, place, found, expected: expected.into() }
             }
             NoHeader::Read(error) => read_error(path, error),
@@ -102,6 +105,15 @@ impl<'a, R: Read> Array<'a, R> {
         let values = values.map_err(|failure| self.error(failure))?;
         self.end()?;
         Ok(values)
+    }
+
+    /// All values as indices.
+    pub(super) fn indices(mut self) -> Result<Indices> {
+        let (stored, n) = (self.stored(Numbers::Whole)?, self.n_numbers()?);
+        let indices = raw_numbers::indices(&mut self.numbers, stored, n);
+        let indices = indices.map_err(|failure| self.error(failure))?;
+        self.end()?;
+        Ok(indices)
     }
 
     /// A short text.
@@ -187,7 +199,10 @@ impl<'a, R: Read> Array<'a, R> {
     fn end(&mut self) -> Result<()> {
         match fill(&mut self.numbers, &mut [0]) {
             Ok(0) => Ok(()),
-            Ok(_) => Err(self.wrong("bytes behind the last number".to_owned())),
+            Ok(_) => {
+                let n = self.header.n_numbers().unwrap_or(u64::MAX);
+                Err(self.wrong(n, "bytes behind the last number".to_owned()))
+            }
             Err(error) => Err(self.error(Failure::Read(error))),
         }
     }
@@ -195,28 +210,32 @@ impl<'a, R: Read> Array<'a, R> {
     fn error(&self, failure: Failure) -> Error {
         match failure {
             Failure::Refused(error) => *error,
-            Failure::Cut(n) => self.wrong(format!("the end after {n} numbers")),
+            Failure::Cut(n) => self.wrong(n, format!("the end after {}", counted(n, "number", "numbers"))),
             Failure::Value(position) => {
-                let found = format!("a number at {position} that cannot be kept as it is");
-                self.not_as(found, "whole numbers that a double equals, and indices that are whole".to_owned())
+                let found = format!("number {} that cannot be kept as it is", position + 1);
+                let expected = "whole numbers that a double equals, and indices that are whole".to_owned();
+                self.not_as(position, found, expected)
             }
             // What an archive says of its content comes this way, too.
             Failure::Read(error) if error.get_ref().is_some_and(|inner| inner.is::<rawzip::Error>()) => {
-                self.wrong(error.to_string())
+                self.wrong(0, error.to_string())
             }
             Failure::Read(error) => read_error(self.path, error),
         }
     }
 
-    fn wrong(&self, found: String) -> Error {
-        self.not_as(found, format!("as many numbers as its shape {:?} says", self.header.shape))
+    fn wrong(&self, number: u64, found: String) -> Error {
+        self.not_as(number, found, format!("as many numbers as its shape {:?} says", self.header.shape))
     }
 
-    fn not_as(&self, found: String, expected: String) -> Error {
+    /// The error at a number of the array, counted from zero.
+    fn not_as(&self, number: u64, found: String, expected: String) -> Error {
+        let size = stored_as(&self.header.descr).map_or(1, |(kind, _)| kind.size() as u64);
+        let byte = self.header.length.saturating_add(number.saturating_mul(size));
         Error::MatrixFormat {
             path: self.path.to_owned(),
             format: self.format,
-            place: self.name.to_owned(),
+            place: format!("{}, byte {byte}", self.name),
             found,
             expected: expected.into(),
         }

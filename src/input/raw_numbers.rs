@@ -2,6 +2,7 @@
 
 use std::io::{ErrorKind, Read};
 
+use super::indices::Indices;
 use crate::error::Error;
 
 /// Bytes read at once.
@@ -127,10 +128,15 @@ pub(super) enum Failure {
     Refused(Box<Error>),
 }
 
+/// Numbers for which room is made at once where so many are promised.
+pub(super) fn room(n: u64) -> usize {
+    n.min(MAX_PROMISED as u64) as usize
+}
+
 /// The next real numbers.
 pub(super) fn reals(source: &mut impl Read, stored: (Kind, Endian), n: u64) -> Result<Vec<f64>, Failure> {
     let (kind, endian) = stored;
-    let mut values = Vec::with_capacity(n.min(MAX_PROMISED as u64) as usize);
+    let mut values = Vec::with_capacity(room(n));
     each(source, kind, n, |position, bytes| {
         values.push(kind.real(bytes, endian).ok_or(Failure::Value(position))?);
         Ok(())
@@ -141,12 +147,23 @@ pub(super) fn reals(source: &mut impl Read, stored: (Kind, Endian), n: u64) -> R
 /// The next whole numbers.
 pub(super) fn wholes(source: &mut impl Read, stored: (Kind, Endian), n: u64) -> Result<Vec<i64>, Failure> {
     let (kind, endian) = stored;
-    let mut values = Vec::with_capacity(n.min(MAX_PROMISED as u64) as usize);
+    let mut values = Vec::with_capacity(room(n));
     each(source, kind, n, |position, bytes| {
         values.push(kind.whole(bytes, endian).ok_or(Failure::Value(position))?);
         Ok(())
     })?;
     Ok(values)
+}
+
+/// The next whole numbers as indices.
+pub(super) fn indices(source: &mut impl Read, stored: (Kind, Endian), n: u64) -> Result<Indices, Failure> {
+    let (kind, endian) = stored;
+    let mut indices = Indices::with_capacity(room(n));
+    each(source, kind, n, |position, bytes| {
+        indices.push(kind.whole(bytes, endian).ok_or(Failure::Value(position))?);
+        Ok(())
+    })?;
+    Ok(indices)
 }
 
 /// Hands every one of the next real numbers with its position to `take`.

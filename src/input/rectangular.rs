@@ -133,7 +133,8 @@ impl<'a> RectangularFile<'a> {
             n_read += 1;
         }
         if n_read < self.n_entries {
-            return Err(Error::EntryCount { path: self.lines.path(), declared: self.n_entries, found: n_read });
+            let (path, line) = (self.lines.path(), self.lines.line.saturating_sub(1));
+            return Err(Error::EntryCount { path, line, declared: self.n_entries, found: n_read });
         }
         Ok(self.lines.source.get_ref().digest())
     }

@@ -38,7 +38,7 @@ pub(super) fn of(stiffness: &SparseMatrix, dofs: Option<&[Option<Dof>]>) -> Matr
     }
     let matrix = SparseMatrix::new((n, n), pointers, columns, values);
     let (path, digest) = (PathBuf::new(), String::new());
-    MatrixInput { matrix, notes: AssemblyNotes::default(), digits: Digits::DOUBLE, path, digest }
+    MatrixInput { matrix, notes: AssemblyNotes::default(), digits: Digits::DOUBLE, path, layout: None, digest }
 }
 
 /// The power of two below a positive number.

@@ -58,7 +58,7 @@ struct Foreign {
 }
 
 /// The formats, the more particular first.
-const FORMATS: [Foreign; 14] = [
+const FORMATS: [Foreign; 16] = [
     Foreign { begins: |start| is_utf16(&start.head), found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
     Foreign {
         begins: |start| start.packing.is_some() && start.head.starts_with(b"PK"),
@@ -101,6 +101,18 @@ const FORMATS: [Foreign; 14] = [
         found: "a MATLAB file of version 7 or older (.mat)",
         for_matrix: AS_TABLE,
         for_table: AS_TABLE,
+    },
+    Foreign {
+        begins: begins_as_output2,
+        found: "a file of Nastran's OUTPUT2 (.op2)",
+        for_matrix: "write its matrices as OUTPUT4 with pyYeti: docs/formats.md has the lines, under OUTPUT2 of Nastran",
+        for_table: "write its rows as a dof map with pyYeti: docs/formats.md has the lines, under OUTPUT2 of Nastran",
+    },
+    Foreign {
+        begins: |start| start.head.starts_with(ANSYS_HEAD),
+        found: "a binary file of Ansys (.full, .emat, .rst)",
+        for_matrix: "write its matrices by HBMAT of /AUX2: `supel recipe ansys` has the lines",
+        for_table: "give the mapping that HBMAT writes next to a matrix as dof map, and the nodes as a table: `supel recipe ansys` has the lines",
     },
     Foreign {
         begins: begins_as_matlab4,
@@ -147,6 +159,28 @@ pub(super) fn refuse(start: &FileStart<'_>, wanted: Wanted) -> Result<()> {
         }
         None => Ok(()),
     }
+}
+
+/// How binary files of Ansys begin: a record of a hundred words, whose mark says that they are whole numbers.
+const ANSYS_HEAD: &[u8] = &[100, 0, 0, 0, 0, 0, 0, 0x80];
+
+/// Records of Fortran, the first of which is one word: how many words the next one has, which is the date or the name of a table.
+fn begins_as_output2(start: &FileStart<'_>) -> bool {
+    [
+        (4, u32::from_le_bytes as fn([u8; 4]) -> u32),
+        (4, u32::from_be_bytes),
+        (8, u32::from_le_bytes),
+        (8, u32::from_be_bytes),
+    ]
+    .into_iter()
+    .any(|(word, of_bytes)| {
+        let number = |at: usize| start.head.get(at..).and_then(|rest| rest.first_chunk()).map(|bytes| of_bytes(*bytes));
+        // The upper half of a word of eight bytes is zero.
+        let low = if of_bytes([1, 0, 0, 0]) == 1 { 4 } else { word };
+        let n_words = number(low).filter(|n_words| (1..=64).contains(n_words));
+        let marks = [0, 4 + word, 8 + word].map(number);
+        n_words.is_some_and(|n_words| marks == [Some(word as u32), Some(word as u32), Some(n_words * word as u32)])
+    })
 }
 
 /// Five numbers of four bytes, the kind of the array, its rows, its columns, whether it is complex and the length of its name, and that name

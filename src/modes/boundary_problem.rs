@@ -293,7 +293,7 @@ mod tests {
             entries.iter().for_each(|(row, col, value)| triplets.push(*row as u32, *col as u32, *value));
             let (matrix, _) = triplets.assemble(n, Declared::General, "chain".as_ref()).expect("sound");
             let (path, digest) = ("chain".into(), String::new());
-            MatrixInput { matrix, notes: AssemblyNotes::default(), digits: Digits::DOUBLE, path, digest }
+            MatrixInput { matrix, notes: AssemblyNotes::default(), digits: Digits::DOUBLE, path, layout: None, digest }
         };
         let mut k = Vec::new();
         for i in 0..n - 1 {

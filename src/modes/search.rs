@@ -113,6 +113,12 @@ impl<'a> Search<'a> {
         Modes::none(self.problem.modal().mass.rows())
     }
 
+    /// Whether nothing has stiffness, as in a point mass: then all motion is that of rigid bodies.
+    fn is_without_stiffness(&self) -> bool {
+        let stiffness = self.problem.modal().stiffness;
+        (0..stiffness.rows()).all(|row| stiffness.entries(row).all(|(_, value)| value == 0.0))
+    }
+
     fn in_one_go(&self, seed: u64) -> Result<Modes> {
         let request = ModeRequest { wanted: self.wanted, eigensolver: self.eigensolver, seed };
         let problem = self.problem.modal();
@@ -148,6 +154,9 @@ impl<'a> Search<'a> {
 
 impl ModeSource for Search<'_> {
     fn lowest(&self, seed: u64) -> Result<Modes> {
+        if self.is_without_stiffness() {
+            return Ok(self.asked(self.nothing()));
+        }
         let count = self.n_expected().unwrap_or(0);
         if count <= SLICED_FROM {
             return Ok(self.asked(self.in_one_go(seed)?));

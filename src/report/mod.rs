@@ -28,6 +28,7 @@ pub(crate) mod table;
 mod trust;
 mod verification;
 mod words;
+mod written_with;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -69,6 +70,7 @@ pub use trust::TrustInterval;
 pub use verification::{Against, Reproduction, VerificationReport};
 pub(crate) use words::file as file_words;
 pub use words::unmet_check;
+pub use written_with::WrittenWith;
 
 /// Body and facts of one run; [`Report::to_json`] gives the document that `schemas/report.schema.json` describes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -11,7 +11,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::by_rows::{balanced_ranges, split_by_rows};
-use super::{AssemblyNotes, Declared, Given, SparseMatrix, TripletBlocks, Triplets};
+use super::{AssemblyNotes, Declared, Given, SparseMatrix, Triangle, TripletBlocks, Triplets};
 use crate::error::{Error, Result};
 
 impl Triplets {
@@ -98,6 +98,7 @@ impl TripletBlocks {
             (Declared::Skew, _) => Mirror::Negated,
             _ => Mirror::On,
         };
+        let triangle = if given == Given::OneTriangle { self.triangle() } else { None };
         let pointers = row_pointers(&self, n, mirror);
         let (mut indices, mut data) = scatter(&self, &pointers, mirror);
         drop(self);
@@ -112,7 +113,7 @@ impl TripletBlocks {
         };
         let is_told = mirror == Mirror::On && declared != Declared::Symmetric;
         let given = if is_told { given } else { Given::Whole };
-        let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, given };
+        let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, given, triangle };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
         Ok((matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())), notes))
     }
@@ -139,6 +140,12 @@ impl TripletBlocks {
             return Err(Error::SkewDiagonal { path: path.to_owned(), row: u64::from(row) + 1, value });
         }
         Ok(())
+    }
+
+    /// The triangle of the first entry off the diagonal.
+    fn triangle(&self) -> Option<Triangle> {
+        let (row, col, _) = self.iter().find(|&(row, col, _)| row != col)?;
+        Some(if row > col { Triangle::Lower } else { Triangle::Upper })
     }
 
     /// Row and column, from 1, of the first entry on one side of the diagonal.

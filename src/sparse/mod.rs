@@ -89,4 +89,6 @@ pub struct AssemblyNotes {
     pub most_alike: Option<usize>,
     /// What a source declared general gave. It was mirrored unless that was the whole matrix.
     pub given: Given,
+    /// The triangle in which all entries were given; none where some stand in either, or it was not asked.
+    pub triangle: Option<Triangle>,
 }

@@ -408,3 +408,67 @@ fn the_number_of_threads_changes_nothing() {
         ["--threads 1", "--threads 3"].map(|threads| doctor(&place, &format!("{ALL} --json {threads}")).out);
     assert_eq!(one, three);
 }
+
+/// The format of each file, and which triangle it has.
+#[test]
+fn formats_and_triangles_are_named() {
+    let place = Place::with(&steel_brick());
+    let found = examined(&place, ALL, ExitCode::Done);
+    assert_eq!(
+        (&found["stiffness"]["format"], &found["stiffness"]["triangle"]),
+        (&"matrix-market".into(), &"lower".into())
+    );
+    let text = doctor(&place, ALL).expect(ExitCode::Done).out;
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("from matrix-market · lower triangle stored"), "{text}");
+    let (k, archive) = (place.text("K.mtx"), place.text("K.npz"));
+    supel(&["convert", &k, &archive]).expect(ExitCode::Done);
+    let found = examined(&place, &ALL.replace("K.mtx", "K.npz"), ExitCode::Done);
+    assert_eq!((&found["stiffness"]["format"], &found["stiffness"]["triangle"]), (&"npz".into(), &Value::Null));
+}
+
+/// A point mass has no stiffness, and is a model: six motions without energy, and no frequencies.
+#[test]
+fn a_stiffness_of_zeros_is_a_rigid_body() {
+    let place = Place::new();
+    let banner = "%%MatrixMarket matrix coordinate real symmetric\n6 6";
+    place.write("K.mtx", format!("{banner} 1\n1 1 0\n").as_bytes());
+    let masses: String =
+        [2.0, 2.0, 2.0, 0.1, 0.2, 0.3].iter().zip(1..).map(|(m, row)| format!("{row} {row} {m}\n")).collect();
+    place.write("M.mtx", format!("{banner} 6\n{masses}").as_bytes());
+    place.write("dofs.txt", b"1.1\n1.2\n1.3\n1.4\n1.5\n1.6\n");
+    place.write("nodes.csv", b"node,x,y,z\n1,0,0,0\n");
+    for files in [ALL, "K.mtx M.mtx"] {
+        let found = examined(&place, files, ExitCode::Done);
+        assert_eq!(found["modes"].as_array().expect("a list").len(), 0, "{found}");
+        assert_eq!(found["model"]["rigid_body_modes"]["count"], 6, "{found}");
+        let is_error = |(_, text): &(&str, String)| text.contains("\"severity\":\"error\"");
+        assert!(!findings(&found).iter().any(is_error), "{found}");
+    }
+}
+
+/// Whatever is found, something is said to do about it.
+#[test]
+fn every_finding_has_a_remedy() {
+    let particles = {
+        let mut model = steel_brick();
+        model.stiffness.retain(|(row, column, _)| *row < 132 && *column < 132);
+        model
+    };
+    let models = [
+        supported(&steel_brick(), |(label, _)| label <= 9),
+        grounded(&steel_brick(), 3 * 16 + 2, 3e6),
+        rounded(&steel_brick(), 4),
+        particles,
+    ];
+    let mut n_found = 0;
+    for model in &models {
+        let ended = doctor(&Place::with(model), &format!("{ALL} --json"));
+        let document: Value = serde_json::from_str(&ended.out).expect("JSON");
+        for finding in document["findings"].as_array().expect("findings") {
+            n_found += 1;
+            assert!(finding["remedy"].as_str().is_some_and(|remedy| !remedy.is_empty()), "{finding}");
+        }
+    }
+    assert!(n_found >= 4, "{n_found}");
+}

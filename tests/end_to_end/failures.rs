@@ -173,3 +173,34 @@ fn a_report_of_another_run_is_noticed() {
     std::fs::remove_file(place.path("x.report.json")).expect("removed");
     assert!(!supel(&["verify", &file, "--strict"]).expect(ExitCode::Done).out.contains(name));
 }
+
+/// Page and JUnit file carry the digest of the superelement, and are held to it as the report is.
+#[test]
+fn a_page_or_a_junit_file_of_another_run_is_noticed() {
+    let with_all = |modes: &str| {
+        let place = expecting(1.0);
+        let job = String::from_utf8(place.bytes("job.toml")).expect("UTF-8");
+        let written = "write = { superelement = \"x.supel\", html = \"x.html\", junit = \"x.xml\" }";
+        place.write("job.toml", job.replace("write = { superelement = \"x.supel\" }", written).as_bytes());
+        reduce(&place, &["--modes", modes]).expect(ExitCode::Done);
+        place
+    };
+    let (place, other) = (with_all("5"), with_all("7"));
+    let verified = || supel(&["verify", &place.text("x.supel"), "--strict"]);
+    verified().expect(ExitCode::Done);
+    for name in ["x.html", "x.xml"] {
+        let own = place.bytes(name);
+        place.write(name, &other.bytes(name));
+        let told = verified().expect(ExitCode::CheckFailed);
+        assert!(told.out.contains(&format!("{name} is of a file with BLAKE3")), "{}", told.out);
+        // That of a run that wrote no superelement has no digest.
+        let text = String::from_utf8(own.clone()).expect("UTF-8");
+        let without: Vec<&str> =
+            text.lines().filter(|line| !line.contains("BLAKE3 ") && !line.contains("blake3")).collect();
+        place.write(name, without.join("\n").as_bytes());
+        let told = verified().expect(ExitCode::CheckFailed);
+        assert!(told.out.contains(&format!("{name} is of a run that wrote no superelement")), "{}", told.out);
+        place.write(name, &own);
+        verified().expect(ExitCode::Done);
+    }
+}

@@ -258,7 +258,10 @@ fn formats_that_are_not_read_are_named() {
     let table = "write the numbers as a table";
     let utf16 = |text: &str| -> Vec<u8> { text.encode_utf16().flat_map(u16::to_le_bytes).collect() };
     let (marked, bare) = (utf16("\u{feff}%%MatrixMarket matrix"), utf16("<Xdmf>"));
-    let files: [(&str, &[u8], &str, [&str; 2]); 10] = [
+    let output2 = b"\x04\0\0\0\x03\0\0\0\x04\0\0\0\x0c\0\0\0\x06\0\0\0";
+    let output2_wide = b"\x08\0\0\0\x03\0\0\0\0\0\0\0\x08\0\0\0\x18\0\0\0\x06\0\0\0";
+    let ansys = b"\x64\0\0\0\0\0\0\x80\x04\0\0\0\xff\xff\xff\xff";
+    let files: [(&str, &[u8], &str, [&str; 2]); 13] = [
         ("shell.txt", &marked, "text in UTF-16", ["write it as UTF-8", "write it as UTF-8"]),
         ("mesh.txt", &bare, "text in UTF-16", ["write it as UTF-8", "write it as UTF-8"]),
         ("K.npz", &zip, "a NumPy archive (.npz)", ["", table]),
@@ -268,6 +271,9 @@ fn formats_that_are_not_read_are_named() {
         ("part.msh", b"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh", ["no assembled matrices", "model.nodes"]),
         ("job.frd", b"    1C\n    1UUSER\n", "a CalculiX result file", ["no assembled matrices", "model.nodes"]),
         ("wing.bdf", b"$ by hand\nSOL 103\nCEND\nBEGIN BULK\n", "a Nastran deck", ["", "meshio convert"]),
+        ("part.op2", output2, "a file of Nastran's OUTPUT2", ["with pyYeti", "as a dof map with pyYeti"]),
+        ("wide.op2", output2_wide, "a file of Nastran's OUTPUT2", ["with pyYeti", "as a dof map with pyYeti"]),
+        ("part.full", ansys, "a binary file of Ansys", ["`supel recipe ansys`", "the mapping that HBMAT writes"]),
         ("model.zip", b"PK\x03\x04\x14\0\0\0\0\0model.mtx", "a zip archive", ["unpack it", "unpack it"]),
     ];
     for (name, bytes, found, advice) in files {

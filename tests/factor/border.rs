@@ -28,6 +28,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         notes: AssemblyNotes::default(),
         digits: Digits::DOUBLE,
         path: "generated".into(),
+        layout: None,
         digest: String::new(),
     };
     let input = Input {

@@ -90,7 +90,7 @@ fn a_flavour_that_is_not_read() {
     for (flavour, word) in flavours {
         let error = error_of(format!("%%MatrixMarket matrix {flavour}\n1 1 1\n1 1 1\n"));
         assert!(matches!(&error, Error::MatrixFlavour { found, .. } if found == word), "{error}");
-        assert_names(&error, "expected `coordinate real`");
+        assert_names(&error, "expected `coordinate` or `array`, of `real` or");
     }
 }
 
@@ -176,9 +176,14 @@ fn a_value_that_is_not_finite() {
 #[test]
 fn too_few_entries() {
     let error = error_of(format!("{HEAD}3 3 1000000000000000000\n1 1 1\n"));
-    assert!(matches!(error, Error::EntryCount { declared: 1_000_000_000_000_000_000, found: 1, .. }), "{error}");
+    assert!(
+        matches!(error, Error::EntryCount { line: 3, declared: 1_000_000_000_000_000_000, found: 1, .. }),
+        "{error}"
+    );
     let bare = error_of("3 3 5\n1 1 1\n2 2 1\n3 3 1\n");
-    assert!(matches!(bare, Error::EntryCount { declared: 5, found: 3, .. }), "{bare}");
+    assert!(matches!(bare, Error::EntryCount { line: 4, declared: 5, found: 3, .. }), "{bare}");
+    let open = error_of(format!("{HEAD}3 3 5\n1 1 1\n2 2 1"));
+    assert!(matches!(open, Error::EntryCount { line: 4, declared: 5, found: 2, .. }), "{open}");
 }
 
 #[test]

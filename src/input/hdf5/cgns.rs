@@ -126,6 +126,7 @@ fn sections(zone: &Group<'_>, nodes: Range<usize>) -> Result<Vec<Section>> {
         let connectivity = group.dataset(&format!("ElementConnectivity/{DATA}"))?;
         let range = group.dataset(&format!("ElementRange/{DATA}"))?.integers()?;
         let numbers = connectivity.integers()?;
+        refuse_parents_alone(&group, &connectivity, &numbers)?;
         let number = match group.find_dataset(DATA)? {
             Some(data) => data.integers()?.first().copied().unwrap_or_default(),
             // meshio states no type and writes tetrahedra alone.
@@ -136,6 +137,22 @@ fn sections(zone: &Group<'_>, nodes: Range<usize>) -> Result<Vec<Section>> {
         sections.push(Section { name, first: range.first().copied().unwrap_or(1), elements });
     }
     Ok(sections)
+}
+
+/// Refuses a section whose faces are given by the elements that they belong to, in place of nodes.
+fn refuse_parents_alone(section: &Group<'_>, connectivity: &Dataset<'_>, numbers: &[i64]) -> Result<()> {
+    let has_nodes = numbers.iter().any(|number| *number != 0);
+    if has_nodes || numbers.is_empty() || section.member("ParentElements")?.is_none() {
+        return Ok(());
+    }
+    Err(Error::MeshUnsupported {
+        path: connectivity.path().to_owned(),
+        object: connectivity.name().to_owned(),
+        found:
+            "faces that are given by the elements they belong to (ParentElements), with zeros in place of their nodes"
+                .to_owned(),
+        expected: "the nodes of each face – write them into ElementConnectivity, or leave the section out",
+    })
 }
 
 fn elements(

@@ -4,6 +4,7 @@ use super::attribute;
 use super::group::{Group, Member};
 use crate::error::{Error, Result};
 use crate::input::compressed::{Compressed, Major};
+use crate::input::indices::Indices;
 
 /// How a group stores a sparse matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,8 +101,8 @@ fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
     let n_rows = shape_attribute(group, "MATLAB_sparse")?.and_then(|v| v.first().copied()).unwrap_or(0);
     let pointers = group.dataset("jc")?;
     let (indices, reals) = match (group.find_dataset("ir")?, group.find_dataset("data")?) {
-        (None, None) => (Vec::new(), None),
-        _ => (group.dataset("ir")?.integers()?, Some(group.dataset("data")?.reals()?)),
+        (None, None) => (Indices::default(), None),
+        _ => (group.dataset("ir")?.indices(0)?, Some(group.dataset("data")?.reals()?)),
     };
     let pointers = pointers.integers()?;
     let n_cols = pointers.len().saturating_sub(1) as u64;
@@ -114,20 +115,14 @@ fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
 
 fn read_named(group: &Group<'_>, named: NamedParts) -> Result<(Compressed, u32)> {
     let [pointers, indices, values] = named.parts;
-    let from_zero = |name: &str| -> Result<Vec<i64>> {
-        let numbers = group.dataset(name)?.integers()?;
-        Ok(if named.base == 0 {
-            numbers
-        } else {
-            numbers.iter().map(|number| number.saturating_sub(named.base)).collect()
-        })
-    };
     let size = |name: &str| -> Result<u64> {
         let sizes = counts(group.dataset(name)?.integers()?);
         Ok(sizes.first().copied().unwrap_or(u64::MAX))
     };
-    let of_parts = [from_zero(pointers)?, from_zero(indices)?];
-    let n_major = of_parts[0].len().saturating_sub(1) as u64;
+    let pointers = group.dataset(pointers)?.integers()?;
+    let pointers: Vec<i64> = pointers.into_iter().map(|number| number.saturating_sub(named.base)).collect();
+    let indices = group.dataset(indices)?.indices(named.base)?;
+    let n_major = pointers.len().saturating_sub(1) as u64;
     let shape = match named.sizes {
         Some([rows, columns]) => [size(rows)?, size(columns)?],
         None => [n_major; 2],
@@ -135,7 +130,6 @@ fn read_named(group: &Group<'_>, named: NamedParts) -> Result<(Compressed, u32)>
     let reals = group.dataset(values)?.reals()?;
     let names = named.parts.map(|name| group.child_name(name));
     let major = if named.tells_columns { Major::Columns } else { Major::Rows };
-    let [pointers, indices] = of_parts;
     Ok((Compressed::new(major, shape, pointers, indices, reals.values, names), reals.digits))
 }
 
@@ -153,7 +147,7 @@ fn read_compressed(group: &Group<'_>, stated: Option<Vec<u64>>) -> Result<(Compr
             return Err(Error::Hdf5Shape { path, object, found, expected: "two numbers, rows and columns".to_owned() });
         }
     };
-    let indices = group.dataset("indices")?.integers()?;
+    let indices = group.dataset("indices")?.indices(0)?;
     let reals = group.dataset("data")?.reals()?;
     let names = ["indptr", "indices", "data"].map(|name| group.child_name(name));
     Ok((Compressed::new(Major::Rows, shape, pointers, indices, reals.values, names), reals.digits))

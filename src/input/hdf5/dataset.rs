@@ -11,6 +11,7 @@ use super::attribute;
 use super::file::H5;
 use super::numbers::{self, Reals, Refusal};
 use crate::error::{Error, Result};
+use crate::input::indices::Indices;
 
 /// The largest expansion of deflate: 258 bytes from a code of two bits.
 const DEFLATE_RATIO: u64 = 1032;
@@ -70,6 +71,11 @@ impl<'a> Dataset<'a> {
             return Ok(Vec::new());
         }
         numbers::integers(&self.dataset).map_err(|e| self.refused(e, "whole numbers"))
+    }
+
+    /// All values as indices from zero, of numbers that count from `first`.
+    pub(super) fn indices(&self, first: i64) -> Result<Indices> {
+        Ok(self.integers()?.into_iter().map(|number| number.saturating_sub(first)).collect())
     }
 
     /// Whether its values are whole numbers.

@@ -15,6 +15,7 @@ use crate::input::compressed::{Compressed, Major};
 use crate::input::file_start::FileStart;
 use crate::input::further_matrix::first_breach;
 use crate::input::hdf5::group::Group;
+use crate::input::indices::Indices;
 use crate::input::unsupported_format::{self, Wanted};
 use crate::input::{Allowance, MatrixInput, MatrixRole, digits_of};
 use crate::regular_file::digest;
@@ -75,7 +76,7 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
         return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: name });
     }
     h5.keep(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * n as u64)?;
-    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), digest: digest(path)? })
+    Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), layout: None, digest: digest(path)? })
 }
 
 /// A matrix as its group or table has it.
@@ -96,7 +97,7 @@ impl Found {
         };
         let Reals { values, digits } = dataset.reals()?;
         let mut pointers = vec![0];
-        let (mut indices, mut entries) = (Vec::new(), Vec::new());
+        let (mut indices, mut entries) = (Indices::default(), Vec::new());
         for row in values.chunks_exact(n_columns.max(1)) {
             for (value, col) in row.iter().zip(0..).filter(|(value, _)| **value != 0.0) {
                 indices.push(col);

@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::input::indices::Indices;
 use crate::input::raw_numbers::{self, Endian, Failure, Kind, fill};
 
 /// What messages call the format.
@@ -265,6 +266,12 @@ impl<'a> Content<'a> {
     pub(super) fn wholes(&mut self, array: &Array, part: &str) -> Result<Vec<i64>> {
         let part = format!("{} {part}", array.name);
         Ok(self.part(&part, |mut source, stored, n| raw_numbers::wholes(&mut source, stored, n))?.0)
+    }
+
+    /// A part of indices.
+    pub(super) fn indices(&mut self, array: &Array, part: &str) -> Result<Indices> {
+        let part = format!("{} {part}", array.name);
+        Ok(self.part(&part, |mut source, stored, n| raw_numbers::indices(&mut source, stored, n))?.0)
     }
 
     /// A part of real numbers, and the digits that they have room for.

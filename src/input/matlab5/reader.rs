@@ -81,7 +81,7 @@ fn matrix(source: &MatrixSource<'_>, array: &Array, content: &mut Content<'_>) -
     let path = source.file.as_path();
     let declared = source.role.undeclared();
     if array.class == Class::Sparse {
-        let mut indices = content.wholes(array, "rows")?;
+        let mut indices = content.indices(array, "rows")?;
         let pointers = content.wholes(array, "column pointers")?;
         let (mut values, digits) = content.reals(array, "values")?;
         // What is reserved behind the last entry has no meaning.

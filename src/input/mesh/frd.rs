@@ -190,7 +190,7 @@ pub(in crate::input) fn elements(
         at += 1;
     }
     stream.form = Form::Text;
-    Ok(())
+    check_count(stream, (at, n), "elements")
 }
 
 /// Type of an element and number of its nodes.

@@ -65,6 +65,7 @@ fn matrix(n: usize, entries: &[Entry]) -> MatrixInput {
         notes,
         digits: Digits::DOUBLE,
         path: "generated".into(),
+        layout: None,
         digest: String::new(),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use supel::input::{Allowance, Input, MatrixInput, SingleMatrix, read};
+use supel::input::{Input, MatrixInput, read};
 use supel::job::ModelJob;
 
 use super::job;
@@ -124,43 +124,4 @@ fn rows_of_an_external_superelement_come_from_its_punch_file() {
         [[3; 6], [11; 6], [19; 6], [27; 6]].concat()
     );
     assert_eq!(dofs.iter().filter(|dof| dof.is_none()).count(), 8, "modal amplitudes");
-}
-
-/// Every file of the corpus that may hold a matrix: read, or refused by a reason that names it. The table is the test's output.
-#[test]
-fn every_file_is_read_or_refused_by_name() {
-    let Some(pairs) = supel_testing::corpus::corpus() else { return };
-    let endings = ["mtx", "gz", "rsa", "rb", "tri", "op4", "pch", "pch1", "mat", "h5ad", "h5"];
-    let mut folders = vec![pairs.join("..")];
-    println!("| file | format | n | entries | verdict |\n|-|-|-|-|-|");
-    while let Some(folder) = folders.pop() {
-        let mut entries: Vec<_> =
-            std::fs::read_dir(&folder).expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
-        entries.sort();
-        for path in entries {
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            let is_small = std::fs::metadata(&path).is_ok_and(|facts| facts.len() < 2 << 20);
-            let is_one = path.extension().is_some_and(|ending| endings.contains(&ending.to_str().unwrap_or_default()));
-            let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-            if !is_small || !is_one || name.contains(".f06") || name.contains(".out") {
-                continue;
-            }
-            let matrix = SingleMatrix { file: path.clone(), layout: None, dofs: None };
-            match matrix.read(&Allowance::of(None)) {
-                Ok(read) => println!(
-                    "| {name} | {} | {} | {} | read |",
-                    read.layout.name(),
-                    read.input.matrix.rows(),
-                    read.input.matrix.nnz()
-                ),
-                Err(error) => {
-                    println!("| {name} | | | | {} |", error.code());
-                    assert!(error.to_string().contains(&name), "{error}");
-                }
-            }
-        }
-    }
 }

@@ -293,5 +293,5 @@ fn arrays_of_other_types_and_sizes() {
     assert_says(&error_of("a.npy", npy("<f8", "2, 3", 48)), "E-MATRIX-SIZE", &["2 × 3"]);
     assert_says(&error_of("a.npy", npy("<f8", "2, 2", 31)), "E-MATRIX-FORMAT", &["the end after 3 numbers"]);
     assert_says(&error_of("a.npy", npy("<f8", "2, 2", 33)), "E-MATRIX-FORMAT", &["behind the last number"]);
-    assert_says(&error_of("a.npy", npy("<f8", "99999999, 99999999", 8)), "E-MATRIX-FORMAT", &["after 1 numbers"]);
+    assert_says(&error_of("a.npy", npy("<f8", "99999999, 99999999", 8)), "E-MATRIX-FORMAT", &["after 1 number –"]);
 }

@@ -8,7 +8,7 @@ use supel::job::{Job, ModelJob};
 use supel::memory_forecast::Resources;
 use supel::verification::check::Verdict;
 
-use super::{Folder, fixture, group};
+use super::{Folder, fixture, group, read_text, refused};
 
 fn model(folder: &Path, name: &str, nodes: &str) -> ModelJob {
     let file = |kind: &str| folder.join(format!("{name}.{kind}"));
@@ -119,4 +119,20 @@ fn local_directions_of_a_deck_are_told() {
     assert!(warnings.len() == 1 && warnings[0].starts_with(&place), "{warnings:?}");
     assert!(warnings[0].contains("take it out of that deck"), "{warnings:?}");
     assert_eq!(told(with(fixture("calculix/block.inp")).expect("a model")), Vec::<String>::new());
+}
+
+/// Behind the head of the elements come as many as it says.
+#[test]
+fn elements_of_a_result_file_are_as_many_as_it_says() {
+    let points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
+    let nodes: String =
+        points.iter().zip(1..).map(|([x, y, z], label)| format!(" -1{label:5}{x:>12}{y:>12}{z:>12}\n")).collect();
+    let with = |stated: u32| {
+        format!(
+            "    1C\n    2C     4     0\n{nodes} -3\n    3C     {stated}     0\n -1    1    3    0    1\n -2    1    2    3    4\n -3\n 9999\n"
+        )
+    };
+    assert_eq!(read_text("one.frd", with(1)).expect("a mesh").labels, [1, 2, 3, 4]);
+    let said = refused("two.frd", with(2)).to_string();
+    assert!(said.contains("1 elements") && said.contains("2, as the head of the block says"), "{said}");
 }

@@ -7,7 +7,7 @@ use supel::error::Error;
 use super::{Folder, fixture, read};
 
 /// A small file of each format.
-const FILES: [&str; 11] = [
+const FILES: [&str; 13] = [
     "mesh/box22.msh",
     "mesh/box22b.msh",
     "mesh/box41.msh",
@@ -19,6 +19,8 @@ const FILES: [&str; 11] = [
     "mesh/box-text.vtk",
     "mesh/box.vtu",
     "mesh/box-raw.vtu",
+    "mesh/box-text.vtu",
+    "mesh/box42.vtk",
 ];
 
 /// Whether an error says which file it is about.
@@ -60,6 +62,25 @@ fn a_byte_that_changed_is_read_or_refused() {
                 assert!(names(&error, &path), "{file} at {at}: {error}");
             }
             bytes[at] = before;
+        }
+    }
+}
+
+/// XML whose data are in a file next to it, cut at every byte.
+#[cfg(feature = "hdf5")]
+#[test]
+fn a_description_cut_anywhere_is_read_or_refused() {
+    let folder = Folder::new();
+    for data in ["hdf5/mesh.h5", "mesh/box.h5"] {
+        folder.write(data.rsplit('/').next().expect("a name"), std::fs::read(fixture(data)).expect("a fixture"));
+    }
+    for file in ["hdf5/mesh.xdmf", "hdf5/flat.xdmf", "mesh/box.xdmf"] {
+        let whole = std::fs::read(fixture(file)).expect("a fixture");
+        // What closes the document is blank at its end.
+        for length in 0..whole.trim_ascii_end().len() {
+            let path = folder.write("cut.xdmf", &whole[..length]);
+            let error = read(&path).expect_err(file);
+            assert!(names(&error, &path), "{file} at {length}: {error}");
         }
     }
 }

@@ -2,9 +2,10 @@
 
 #![cfg(feature = "hdf5")]
 
+use supel::error::Error;
 use supel::input::Faces;
 
-use super::{faces, fixture, group, read};
+use super::{Folder, faces, fixture, group, read};
 
 /// Sets of nodes have the names of the file, and blocks their numbers.
 #[test]
@@ -35,4 +36,35 @@ fn cgns_in_hdf5() {
     };
     // The coordinates of the file are right to 1e-11.
     assert!(found.len() == 2 && (areas.iter().sum::<f64>() - 6.0).abs() < 1e-10, "{found:?} {areas:?}");
+}
+
+/// Faces may be given by the elements that they belong to, which is told and not taken for damage.
+#[test]
+fn faces_of_cgns_by_their_parents_alone() {
+    let folder = Folder::new();
+    let path = folder.write("parents.cgns", std::fs::read(fixture("mesh/box.cgns")).expect("a fixture"));
+    let file = hdf5_metno::File::open_rw(&path).expect("HDF5");
+    let base = file
+        .groups()
+        .expect("groups")
+        .into_iter()
+        .find(|group| !group.groups().expect("groups").is_empty())
+        .expect("a base");
+    let zone =
+        base.groups().expect("groups").into_iter().find(|zone| zone.link_exists("GridCoordinates")).expect("a zone");
+    let skin = zone.group("Skin").expect("a section");
+    let nodes = skin.dataset("ElementConnectivity/ data").expect("nodes");
+    let zeros = vec![0i32; nodes.size()];
+    skin.group("ElementConnectivity").expect("a group").unlink(" data").expect("unlinked");
+    skin.new_dataset::<i32>()
+        .shape(zeros.len())
+        .create("ElementConnectivity/ data")
+        .expect("a dataset")
+        .write_raw(&zeros)
+        .expect("written");
+    drop((nodes, skin.create_group("ParentElements").expect("a group"), skin, zone, base, file));
+    let refused = read(&path).expect_err("a refusal");
+    assert!(matches!(refused, Error::MeshUnsupported { .. }), "{refused:?}");
+    let said = refused.to_string();
+    assert!(said.contains("ParentElements") && said.contains("Skin") && said.contains("write them into"), "{said}");
 }

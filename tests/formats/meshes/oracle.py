@@ -1,4 +1,4 @@
-"""Prints what meshio reads of each mesh named: points, and the points of every set, as JSON, one line a mesh.
+"""Prints what meshio reads of each mesh named: points, cells, and the points of every set, as JSON, one line a mesh.
 
 A mesh that meshio does not read gives a line with the reason.
 """
@@ -9,6 +9,14 @@ import sys
 
 import meshio
 import numpy as np
+
+
+# Kinds of cells that have faces, and that are read.
+TYPES = (
+    "triangle triangle6 quad quad8 tetra tetra10 pyramid pyramid13 wedge wedge15 hexahedron hexahedron20 "
+    "triangle7 quad9 pyramid14 wedge18 hexahedron27"
+).split()
+FACELESS = {"vertex", "line", "line3", "line4"}
 
 
 def groups(mesh):
@@ -31,8 +39,9 @@ for path in sys.argv[1:]:
             points = np.zeros((len(mesh.points), 3))
             points[:, : mesh.points.shape[1]] = mesh.points
             of_points, of_cells = groups(mesh)
-            n_cells = sum(len(block.data) for block in mesh.cells)
-        line = {"points": points.tolist(), "point_sets": of_points, "cell_sets": of_cells, "n_cells": n_cells}
+            cells = [[block.type, np.asarray(block.data).tolist()] for block in mesh.cells if block.type in TYPES]
+            others = sorted({block.type for block in mesh.cells if len(block.data)} - set(TYPES) - FACELESS)
+        line = {"points": points.tolist(), "point_sets": of_points, "cell_sets": of_cells, "cells": cells, "others": others}
     except BaseException as error:  # meshio leaves by sys.exit too
         line = {"error": f"{type(error).__name__}: {error}"[:200]}
     print(json.dumps(line))
