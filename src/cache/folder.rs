@@ -12,56 +12,10 @@ use serde::Serialize;
 
 use super::entry::{Reader, Writer};
 use super::key::{Digest, Key};
+use super::kind::Kind;
 use super::recorded::Recorded;
 use crate::error::{Error, Result};
 use crate::unfinished::RemovedAtEnd;
-
-/// What an entry holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// The factor of K_II.
-    Factor,
-    /// A count of eigenvalues.
-    Count,
-    /// Modes.
-    Modes,
-    /// The frequency response of a full model.
-    Response,
-    /// How far modes are certified, and which entry has them.
-    Band,
-    /// The space that the response of a full model was found in.
-    Space,
-    /// The order of elimination.
-    Order,
-    /// Constraint modes.
-    Statics,
-}
-
-impl Kind {
-    const ALL: [Self; 8] =
-        [Self::Factor, Self::Count, Self::Modes, Self::Response, Self::Band, Self::Space, Self::Order, Self::Statics];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Factor => "factor",
-            Self::Count => "count",
-            Self::Modes => "modes",
-            Self::Response => "response",
-            Self::Band => "band",
-            Self::Space => "space",
-            Self::Order => "order",
-            Self::Statics => "statics",
-        }
-    }
-
-    /// The kind of an entry that has its name; none of any other file.
-    fn of(name: &str) -> Option<Self> {
-        let (kind, key) = name.strip_suffix(ENTRY)?.split_once('-')?;
-        let is_key = key.len() == 64 && key.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
-        Self::ALL.into_iter().find(|known| is_key && known.name() == kind)
-    }
-}
 
 /// What a run had of its cache.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
@@ -237,7 +191,7 @@ impl Cache {
             let Ok(file) = file else { continue };
             let (name, Ok(facts)) = (file.file_name(), file.metadata()) else { continue };
             let (Some(name), Ok(used)) = (name.to_str(), facts.modified()) else { continue };
-            if Kind::of(name).is_some() {
+            if kind_of(name).is_some() {
                 entries.push((used, facts.len(), name.to_owned()));
             } else if is_part(name) && used.elapsed().is_ok_and(|age| age > ABANDONED) {
                 let _ = std::fs::remove_file(file.path());
@@ -296,6 +250,13 @@ fn found<T>(path: &Path, key: &Digest, read: impl FnOnce(&mut Reader<'_>) -> Opt
         Some(found) if reader.ends_whole() => Found::Result(found),
         _ => Found::Damaged,
     }
+}
+
+/// The kind of an entry that has its name; none of any other file.
+fn kind_of(name: &str) -> Option<Kind> {
+    let (kind, key) = name.strip_suffix(ENTRY)?.split_once('-')?;
+    let is_key = key.len() == 64 && key.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
+    Kind::ALL.into_iter().find(|known| is_key && known.name() == kind)
 }
 
 fn name_of(kind: Kind, key: &Digest) -> String {

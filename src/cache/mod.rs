@@ -20,11 +20,13 @@
 mod entry;
 mod folder;
 mod key;
+mod kind;
 mod recorded;
 
 pub(crate) use entry::{Number, Reader, Writer};
-pub use folder::{Cache, Kind, Tally};
+pub use folder::{Cache, Tally};
 pub(crate) use key::{Digest, Key};
+pub use kind::Kind;
 pub(crate) use recorded::Recorded;
 
 use crate::error::Result;

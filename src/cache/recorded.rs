@@ -1,7 +1,7 @@
 //! What an entry holds whole.
 
 use super::entry::{Reader, Writer};
-use super::folder::Kind;
+use super::kind::Kind;
 
 /// A result that an entry holds whole.
 pub(crate) trait Recorded: Sized {

@@ -74,7 +74,7 @@ fn assert_same_or_parts(found: &Written, of_cache: &Value, expected: &Written, w
     if of_cache["parts"] == 0 {
         return assert_same(found, expected, what);
     }
-    let [found, expected] = [&found.1, &expected.1].map(|body| serde_json::from_str::<Value>(body).expect("a body"));
+    let [found, expected] = [found, expected].map(body_of);
     let verdicts = |body: &Value| -> Vec<(Value, Value)> {
         let checks = body["checks"].as_array().expect("checks").iter();
         checks.map(|check| (check["id"].clone(), check["verdict"].clone())).collect()
@@ -86,6 +86,12 @@ fn assert_same_or_parts(found: &Written, of_cache: &Value, expected: &Written, w
         // Frequencies are Rayleigh quotients, the response has residuals below 1e-7 squared: both are far more accurate.
         assert!((a - b).abs() <= 1e-8 * b.abs().max(1e-3), "{what}: {a} and {b}");
     }
+}
+
+/// The body of a report, which ends before the facts of the run.
+fn body_of(written: &Written) -> Value {
+    let text = format!("{}}}", written.1.trim_end().trim_end_matches(','));
+    serde_json::from_str::<Value>(&text).expect("a report without facts of its run")["body"].take()
 }
 
 /// Frequencies of the full and the reduced model, kept and under every boundary, and the error of the response.
@@ -265,7 +271,7 @@ fn half_a_band_is_a_part_of_the_whole_one() {
     assert_eq!((&of_plain["n_factorisations"], &of_cached["n_factorisations"]), (&json!(2), &json!(1)));
     let solves = |work: &Value| work["n_solves"].as_u64().expect("a count");
     assert!(2 * solves(&of_cached) < solves(&of_plain), "{of_cached} against {of_plain}");
-    let body: Value = serde_json::from_str(&found.1).expect("a body");
+    let body = body_of(&found);
     assert_eq!(body["completeness"]["certificate"], "sturm-count", "{}", body["completeness"]);
     assert_eq!(body["completeness"]["n_counted"], body["completeness"]["n_found"]);
 }

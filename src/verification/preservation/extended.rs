@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
 use super::shift::shift;
-use super::space::{FullModel, Space, bound_of, coefficients, size_by};
+use super::space::{FullModel, RESIDUAL, Space, bound_of, coefficients, size_by};
 use crate::cache::{Reader, Writer};
 use crate::dense;
 use crate::eigen::{Equilibrated, Spectral, complex_shift, mass_qr};
@@ -28,9 +28,6 @@ use crate::factor::SolveOperator;
 use crate::reduction::panel_of;
 use crate::sparse::product;
 
-/// Relative residual that ends the iteration. The error of the response is of the order of its square, times at most the
-/// ratio of the peak to the static response.
-pub(super) const RESIDUAL: f64 = 1e-7;
 /// Steps after which the residual is taken as it is, and stated.
 const MAX_STEPS: usize = 24;
 /// Steps without progress after which the limit of arithmetic is met. A band with modes that the basis lacks makes none

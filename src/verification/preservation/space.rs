@@ -13,7 +13,6 @@ use faer::{Mat, MatRef, c64};
 use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
-use super::extended::RESIDUAL;
 use super::shift::shift;
 use crate::cache::{Key, Kind, Reader, Recorded, Writer};
 use crate::dense;
@@ -21,6 +20,10 @@ use crate::eigen::{Equilibrated, Spectral, complex_shift};
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::sparse::product;
+
+/// Relative residual that ends the iteration, and up to which a space of an earlier run answers. The error of the response is of the order of
+/// its square, times at most the ratio of the peak to the static response.
+pub(super) const RESIDUAL: f64 = 1e-7;
 
 /// What a comparison of responses asks of the full model.
 pub(super) trait FullModel {
