@@ -11,7 +11,7 @@ use crate::input::{self, Allowance, InputFacts};
 use crate::job::ModeSelection;
 use crate::memory_forecast::{self, Resources};
 use crate::model::{self, Model};
-use crate::modes::{self, Component, Retained, Search, StaticSet};
+use crate::modes::{Component, Retained, Search, StaticSet};
 use crate::outcome::Outcome;
 use crate::output::{self, Results};
 use crate::partition::{self, CarriedMatrix, Expansion, Loads, Partition, Quantities};
@@ -215,13 +215,14 @@ fn with_reduction<T>(
     let forecast = search.n_expected().and_then(|n_modes| size_forecast::of_modes(n_modes, job));
     forecast.iter().for_each(|warning| observer.warned(warning));
     let at_once = memory_forecast::slices_within_memory(analysis, partition, plan, resources, size)?;
+    let search = search.with_slices_at_once(at_once);
     let found = match plan.modes() {
-        Modes::Computed => search.with_slices_at_once(at_once).lowest_or_earlier(SEED)?,
+        Modes::Computed => search.lowest_or_earlier(SEED)?,
         Modes::NotAsked => search.nothing(),
     };
 
     observer.stage("certificate");
-    let (found, certificate) = modes::certified(&search, &search.problem, found, search.edge(), job.certified())?;
+    let (found, certificate) = search.certified(found, job.certified())?;
     let retained = Retained::new(partition, found, search.problem.boundary);
 
     observer.stage("basis");

@@ -9,7 +9,7 @@ found errors; H couplings of a hole against the mesh; S a spinning beam.
 
 Needs a release build of supel; parts are generated and kept in --work, Python packages come into an environment of its own
 (PEERS_VENV). --family, --dofs, --method and --repeats are of A, C, E and F: without options a short run on small parts; the
-documents' series is `--dofs 89000` for A and C, `F --family slender --dofs 89000 --repeats 3`, and
+documents' series is `--dofs 89000` for A and C, `F --family slender --dofs 297000`, `F --family onshape` with SUPEL_CORPUS, and
 `E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`. B and G leave out what needs SUPEL_CORPUS
 where that is absent, H needs CalculiX.
 """
@@ -28,13 +28,15 @@ environment.enter()
 from diagrams import accepted, accuracy, delivered, eigen, foreign, hole, scaling, scenes, spin
 
 FAMILIES = ("bulky", "slender", "lattice")
+# Parts of one size, of F alone.
+OF_CORPUS = ("onshape",)
 LETTERS = ("A", "B", "C", "D", "E", "F", "G", "H", "S")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("letters", nargs="*", choices=[[], *LETTERS], help="default: all")
-    parser.add_argument("--family", action="append", choices=FAMILIES, help="default: all")
+    parser.add_argument("--family", action="append", choices=(*FAMILIES, *OF_CORPUS), help="default: all that are generated")
     parser.add_argument("--dofs", action="append", type=int, help="default: 10000; for E 2500, 5000, 10000")
     parser.add_argument("--method", choices=["craig-bampton", "herting"], default="herting", help="of A and E")
     parser.add_argument("--threads", type=int, default=2)
@@ -50,6 +52,9 @@ def main():
     settings.origin = machine.origin(settings.supel)
     letters, families = settings.letters or LETTERS, settings.family or FAMILIES
     for family in families:
+        if family in OF_CORPUS:
+            scenes.draw(settings, family, None)
+            continue
         for dofs in settings.dofs or [10000]:
             if "A" in letters:
                 eigen.draw(settings, family, dofs)

@@ -33,6 +33,10 @@ impl Number for u64 {
     const TAG: u8 = b'n';
 }
 
+impl Number for u8 {
+    const TAG: u8 = b'b';
+}
+
 impl Number for u32 {
     const TAG: u8 = b'i';
 }
@@ -157,6 +161,11 @@ impl<'a> Reader<'a> {
             [number] => Some(Some(number)),
             _ => None,
         }
+    }
+
+    /// The digest of a key.
+    pub(crate) fn digest(&mut self) -> Option<Digest> {
+        self.array::<u8>()?.try_into().ok()
     }
 
     /// Whole numbers, small enough to be added up.

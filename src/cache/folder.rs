@@ -11,49 +11,20 @@ use std::time::{Duration, SystemTime};
 use serde::Serialize;
 
 use super::entry::{Reader, Writer};
-use super::key::Key;
+use super::key::{Digest, Key};
+use super::kind::Kind;
+use super::recorded::Recorded;
 use crate::error::{Error, Result};
 use crate::unfinished::RemovedAtEnd;
-
-/// What an entry holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// The factor of K_II.
-    Factor,
-    /// A count of eigenvalues.
-    Count,
-    /// Modes.
-    Modes,
-    /// The frequency response of a full model.
-    Response,
-}
-
-impl Kind {
-    const ALL: [Self; 4] = [Self::Factor, Self::Count, Self::Modes, Self::Response];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Factor => "factor",
-            Self::Count => "count",
-            Self::Modes => "modes",
-            Self::Response => "response",
-        }
-    }
-
-    /// The kind of an entry that has its name; none of any other file.
-    fn of(name: &str) -> Option<Self> {
-        let (kind, key) = name.strip_suffix(ENTRY)?.split_once('-')?;
-        let is_key = key.len() == 64 && key.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
-        Self::ALL.into_iter().find(|known| is_key && known.name() == kind)
-    }
-}
 
 /// What a run had of its cache.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// Results of earlier runs that it took, by kind.
     pub taken: BTreeMap<Kind, usize>,
+    /// Results that are parts of what earlier runs have found for more than is asked now. They are right to their error bars, as those of a
+    /// run without a cache are, and not those to the bit.
+    pub parts: usize,
     /// Results of its own that it left there for later runs, by kind.
     pub kept: BTreeMap<Kind, usize>,
     /// Files with names of entries that were none or could not be read.
@@ -120,7 +91,7 @@ impl Cache {
         make: impl FnOnce() -> Result<T>,
         write: impl FnOnce(&T, &mut Writer<'_>) -> std::io::Result<()>,
     ) -> Result<T> {
-        if let Some(found) = self.take(kind, key, read) {
+        if let Some(found) = self.take(kind, &key.digest(), read) {
             return Ok(found);
         }
         let made = make()?;
@@ -128,8 +99,29 @@ impl Cache {
         Ok(made)
     }
 
-    /// The result under a key, by `read`; none where there is none or it is damaged.
-    fn take<T>(&self, kind: Kind, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
+    /// The result that an earlier run has kept under the digest of a key; none of this run.
+    pub(crate) fn of_earlier_run<T: Recorded>(&self, key: &Digest) -> Option<T> {
+        let is_own = locked(&self.0.own).contains_key(&name_of(T::KIND, key));
+        if is_own { None } else { self.take(T::KIND, key, T::read) }
+    }
+
+    /// Whether there is an entry under the digest of a key, sound or not.
+    pub(crate) fn has(&self, kind: Kind, key: &Digest) -> bool {
+        self.0.folder.join(name_of(kind, key)).exists()
+    }
+
+    /// A part of what an earlier run has found for more has become a result of this run.
+    pub(crate) fn part_was_taken(&self) {
+        locked(&self.0.tally).parts += 1;
+    }
+
+    /// Keeps a result for later runs in the place of what is there under its key. What cannot be kept is tallied, and no error.
+    pub(crate) fn replace<T: Recorded>(&self, key: &Key, result: &T) {
+        self.keep(T::KIND, key, |to| result.write(to));
+    }
+
+    /// The result under the digest of a key, by `read`; none where there is none or it is damaged.
+    fn take<T>(&self, kind: Kind, key: &Digest, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Option<T> {
         let name = name_of(kind, key);
         let path = self.0.folder.join(&name);
         let found = found(&path, key, read);
@@ -150,7 +142,7 @@ impl Cache {
 
     /// Keeps a result under a key, by `write`. What cannot be kept is tallied, and no error.
     fn keep(&self, kind: Kind, key: &Key, write: impl FnOnce(&mut Writer<'_>) -> std::io::Result<()>) {
-        let name = name_of(kind, key);
+        let name = name_of(kind, &key.digest());
         match self.written(&name, key, write) {
             Ok(()) => {
                 locked(&self.0.own).insert(name, kind);
@@ -199,7 +191,7 @@ impl Cache {
             let Ok(file) = file else { continue };
             let (name, Ok(facts)) = (file.file_name(), file.metadata()) else { continue };
             let (Some(name), Ok(used)) = (name.to_str(), facts.modified()) else { continue };
-            if Kind::of(name).is_some() {
+            if kind_of(name).is_some() {
                 entries.push((used, facts.len(), name.to_owned()));
             } else if is_part(name) && used.elapsed().is_ok_and(|age| age > ABANDONED) {
                 let _ = std::fs::remove_file(file.path());
@@ -238,7 +230,7 @@ enum Found<T> {
     Unreadable,
 }
 
-fn found<T>(path: &Path, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Found<T> {
+fn found<T>(path: &Path, key: &Digest, read: impl FnOnce(&mut Reader<'_>) -> Option<T>) -> Found<T> {
     match std::fs::symlink_metadata(path) {
         Ok(facts) if facts.is_file() => {}
         // A pipe or a device may have no end.
@@ -252,7 +244,7 @@ fn found<T>(path: &Path, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option
         Err(error) if error.kind() == ErrorKind::NotFound => return Found::Nothing,
         Err(_) => return Found::Unreadable,
     };
-    let Some(mut reader) = Reader::new(&file, &key.digest()) else { return Found::Damaged };
+    let Some(mut reader) = Reader::new(&file, key) else { return Found::Damaged };
     match read(&mut reader) {
         None if reader.lacks_memory => Found::Nothing,
         Some(found) if reader.ends_whole() => Found::Result(found),
@@ -260,9 +252,16 @@ fn found<T>(path: &Path, key: &Key, read: impl FnOnce(&mut Reader<'_>) -> Option
     }
 }
 
-fn name_of(kind: Kind, key: &Key) -> String {
+/// The kind of an entry that has its name; none of any other file.
+fn kind_of(name: &str) -> Option<Kind> {
+    let (kind, key) = name.strip_suffix(ENTRY)?.split_once('-')?;
+    let is_key = key.len() == 64 && key.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
+    Kind::ALL.into_iter().find(|known| is_key && known.name() == kind)
+}
+
+fn name_of(kind: Kind, key: &Digest) -> String {
     let mut name = format!("{}-", kind.name());
-    key.digest().iter().for_each(|byte| write!(name, "{byte:02x}").expect("a string takes all"));
+    key.iter().for_each(|byte| write!(name, "{byte:02x}").expect("a string takes all"));
     name + ENTRY
 }
 
@@ -298,7 +297,7 @@ mod tests {
     }
 
     fn path_of(cache: &Cache, n: u32) -> PathBuf {
-        cache.0.folder.join(name_of(KIND, &key(n)))
+        cache.0.folder.join(name_of(KIND, &key(n).digest()))
     }
 
     fn keep(cache: &Cache, n: u32) {
@@ -306,7 +305,7 @@ mod tests {
     }
 
     fn taken(cache: &Cache, n: u32) -> Option<Vec<u32>> {
-        cache.take(KIND, &key(n), |from| from.array())
+        cache.take(KIND, &key(n).digest(), |from| from.array())
     }
 
     /// One entry is 14 + 32 + 9 + 400 + 32 bytes.
@@ -355,7 +354,7 @@ mod tests {
             std::fs::write(&path, &bytes).expect("written");
             assert_eq!(taken(&cache, 1), None);
             assert!(!path.exists());
-            assert_eq!(cache.tally().damaged, [name_of(KIND, &key(1))].into());
+            assert_eq!(cache.tally().damaged, [name_of(KIND, &key(1).digest())].into());
         }
         std::fs::write(&path, &sound).expect("written");
         assert_eq!(taken(&cache, 1), Some(numbers(1)));
@@ -381,7 +380,7 @@ mod tests {
         ];
         for shape in shapes {
             keep(&cache, 3);
-            assert_eq!(cache.take(KIND, &key(3), shape), None);
+            assert_eq!(cache.take(KIND, &key(3).digest(), shape), None);
         }
         std::fs::create_dir(path_of(&cache, 4)).expect("a folder");
         assert_eq!(taken(&cache, 4), None);
@@ -488,7 +487,7 @@ mod tests {
             assert_eq!(taken(&cache, 1), None);
             assert!(path.symlink_metadata().is_err());
         }
-        assert_eq!(cache.tally().damaged, [name_of(KIND, &key(1))].into());
+        assert_eq!(cache.tally().damaged, [name_of(KIND, &key(1).digest())].into());
         assert_eq!(std::fs::read(&other).expect("still there"), b"mine");
     }
 }

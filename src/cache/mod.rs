@@ -10,7 +10,8 @@
 //! ```
 //! An entry is the result of a function to the last bit, and its key is a digest of all that the function takes, of the bytes of the program
 //! and of the instructions of the processor, which decide how sums are rounded. So a run with a cache writes the bytes that a run
-//! without one writes, and takes less time.
+//! without one writes, and takes less time. A result that contains what is asked, and is certified to, may serve in part: it is named by a
+//! second entry, whose key leaves out how much was asked. Such parts are right to their error bars, and the tally counts them.
 //!
 //! Entries come and go whole: each is written under another name first, and read only where its digest is right. What is damaged or foreign
 //! under the name of an entry is removed and computed anew. Several processes may use one folder. Where it has more bytes than allowed, the
@@ -19,27 +20,16 @@
 mod entry;
 mod folder;
 mod key;
+mod kind;
+mod recorded;
 
 pub(crate) use entry::{Number, Reader, Writer};
-pub use folder::{Cache, Kind, Tally};
+pub use folder::{Cache, Tally};
 pub(crate) use key::{Digest, Key};
+pub use kind::Kind;
+pub(crate) use recorded::Recorded;
 
 use crate::error::Result;
-
-/// A result that an entry holds whole.
-pub(crate) trait Recorded: Sized {
-    /// The kind of its entries.
-    const KIND: Kind;
-
-    /// Writes it.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()>;
-
-    /// Reads it; none where the arrays are not those of such a result.
-    fn read(from: &mut Reader<'_>) -> Option<Self>;
-}
 
 /// What `make` makes, or what it made in an earlier run under the same key.
 ///

@@ -6,9 +6,9 @@ use super::attachment::Attachment;
 use super::rigid_correction::{Carried, defect, left_inverse, left_inverse_by, left_inverse_of, rigid_error};
 use super::schur_complement::{condensed_stiffness, sampled_cancellation};
 use super::static_modes::{LowRank, StaticModes};
-use crate::cache::Key;
+use crate::cache::{Key, Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
-use crate::factor::Cholesky;
+use crate::factor::{Cholesky, Storage};
 use crate::partition::Partition;
 use crate::plan::Statics;
 use crate::rigid::{RigidBodyModes, unit_motions};
@@ -53,7 +53,11 @@ pub fn constraint_modes(
     rigid: &RigidBodyModes,
 ) -> ConstraintModes<'static> {
     let n_b = partition.n_interface();
-    let mut modes = factor.follow_border(Mat::<f64>::identity(n_b, n_b).as_ref());
+    // What refinement took of a factor in single precision is part of the report.
+    let cache = partition.cache().filter(|_| factor.storage() == Storage::Double && n_b > 0);
+    let solved = || Ok(Solved(factor.follow_border(Mat::<f64>::identity(n_b, n_b).as_ref())));
+    let Solved(mut modes) = recalled(cache, || partition.key_of_stiffness("constraint modes"), solved)
+        .expect("a factor follows every motion of its border");
     let mut raw_rigid_error = 0.0;
     let mut carried = Carried::nothing(n_b);
     // Without an interface there is nothing to be carried.
@@ -70,6 +74,21 @@ pub fn constraint_modes(
     let modes = StaticModes::stored(modes);
     let (stiffness, cancellation) = condensed_stiffness(partition, &modes);
     ConstraintModes { modes, carried, stiffness, cancellation, raw_rigid_error, attachment: None }
+}
+
+/// Constraint modes before they are corrected, as an entry of a cache has them.
+struct Solved(Mat<f64>);
+
+impl Recorded for Solved {
+    const KIND: Kind = Kind::Statics;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        to.columns(self.0.as_ref())
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        from.columns().map(Self)
+    }
 }
 
 /// The constraint modes in the form that a plan has chosen.

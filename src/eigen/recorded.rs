@@ -13,7 +13,7 @@ impl Recorded for Modes {
         let Self { lambda, shapes, errors, searched_to, next, counts, work } = self;
         to.array(lambda)?;
         to.columns(shapes.as_ref())?;
-        to.array(&errors.iter().flat_map(numbers_of).collect::<Vec<f64>>())?;
+        to.array(&errors.iter().flat_map(ModeError::numbers).collect::<Vec<f64>>())?;
         to.array(searched_to.as_slice())?;
         to.array(next.as_slice())?;
         to.counts(&counts.iter().map(|count| count.n_elastic).collect::<Vec<usize>>())?;
@@ -27,7 +27,7 @@ impl Recorded for Modes {
         let shapes = from.columns()?;
         let errors: Vec<f64> = from.array()?;
         let (errors, rest) = errors.as_chunks();
-        let errors: Vec<ModeError> = errors.iter().map(error_of).collect();
+        let errors: Vec<ModeError> = errors.iter().map(ModeError::of_numbers).collect();
         if !rest.is_empty() || [shapes.ncols(), errors.len()] != [lambda.len(); 2] {
             return None;
         }
@@ -42,21 +42,18 @@ impl Recorded for Modes {
     }
 }
 
-fn numbers_of(error: &ModeError) -> [f64; 8] {
-    let ModeError {
-        backward,
-        of_terms,
-        cancellation,
-        relative_bar,
-        data_bar,
-        residual_bar,
-        rounding_floor,
-        zero_level,
-    } = *error;
-    [backward, of_terms, cancellation, relative_bar, data_bar, residual_bar, rounding_floor, zero_level]
-}
+impl ModeError {
+    /// Its numbers, in an order of their own.
+    pub(crate) fn numbers(&self) -> [f64; 8] {
+        let Self { backward, of_terms, cancellation, relative_bar, data_bar, residual_bar, rounding_floor, zero_level } =
+            *self;
+        [backward, of_terms, cancellation, relative_bar, data_bar, residual_bar, rounding_floor, zero_level]
+    }
 
-fn error_of(numbers: &[f64; 8]) -> ModeError {
-    let [backward, of_terms, cancellation, relative_bar, data_bar, residual_bar, rounding_floor, zero_level] = *numbers;
-    ModeError { backward, of_terms, cancellation, relative_bar, data_bar, residual_bar, rounding_floor, zero_level }
+    /// The one that has such numbers.
+    pub(crate) fn of_numbers(numbers: &[f64; 8]) -> Self {
+        let [backward, of_terms, cancellation, relative_bar, data_bar, residual_bar, rounding_floor, zero_level] =
+            *numbers;
+        Self { backward, of_terms, cancellation, relative_bar, data_bar, residual_bar, rounding_floor, zero_level }
+    }
 }

@@ -254,7 +254,7 @@ impl Begin {
 }
 
 /// Compares the counts up to an upper end with the modes.
-fn judge(
+pub(super) fn judge(
     (problem, source): (&BoundaryProblem<'_>, &dyn ModeSource),
     modes: &Modes,
     upper: ElasticCount,

@@ -15,6 +15,7 @@ mod certificate;
 mod component;
 mod counts;
 mod dense_spectrum;
+mod earlier;
 mod finite;
 mod indefinite;
 mod retained;

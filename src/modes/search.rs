@@ -5,24 +5,27 @@
 //! comes from a dense decomposition. The certificate judges all of them alike.
 
 use super::boundary_problem::BoundaryProblem;
+use super::certificate::{Certificate, Mending, certified, judge};
 use super::counts::Counts;
+use super::earlier::{CertifiedBand, CertifiedModes};
 use super::slices::{Band, ModeSource, SLICE, search_between};
 use super::{Component, dense_spectrum, indefinite};
-use crate::cache::{Key, recalled};
+use crate::cache::{Cache, Key, Kind, recalled};
 use crate::eigen::ElasticCount;
 use crate::eigen::{CLUSTER_GAP, ModeRequest, Modes, ShiftInvert, elastic_modes};
 use crate::eigen::{EigenWork, Interval, Wanted, are_clustered, is_above};
 use crate::error::{Error, Result};
 use crate::factor::Storage;
-use crate::job::{Boundary, Eigensolver, ModeSelection, ReductionJob};
+use crate::job::{Boundary, Certify, Eigensolver, ModeSelection, ReductionJob};
 use crate::partition::Partition;
+use crate::random::SEED;
 
 /// More modes than this come in slices. On solids of 30,000 and 91,000 dofs 400 modes take 1.1 times as long in slices as in one
 /// go, 800 modes 0.6 and 0.7 times.
 pub const SLICED_FROM: usize = 400;
 
 /// What a job asks of the spectrum of a component, and how it is found.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Search<'a> {
     /// The eigenproblem.
     pub problem: BoundaryProblem<'a>,
@@ -34,6 +37,10 @@ pub struct Search<'a> {
     edge: Option<ElasticCount>,
     /// Slices searched at the same time, at most.
     at_once: usize,
+    /// Modes of an earlier run that contain what is asked for.
+    earlier: Option<CertifiedModes>,
+    /// The shift up to which earlier runs have certified modes.
+    reach: Option<f64>,
 }
 
 impl<'a> Search<'a> {
@@ -49,15 +56,30 @@ impl<'a> Search<'a> {
         let boundary = component.boundary(job);
         let problem = BoundaryProblem { component, boundary };
         let wanted = mode_wish(job.wanted(), component.partition);
-        let edge = match wanted {
-            Wanted::UpTo(limit) if limit > 0.0 => edge_of(&problem, limit)?,
-            _ => None,
-        };
         let n_asked = match job.wanted() {
             ModeSelection::Count { count } => Some(count),
             ModeSelection::UpTo { .. } => None,
         };
-        Ok(Self { problem, wanted, n_asked, eigensolver: job.eigensolver, edge, at_once: 1 })
+        let (eigensolver, nothing) = (job.eigensolver, (None, None));
+        let search = Self { problem, wanted, n_asked, eigensolver, edge: None, at_once: 1, earlier: None, reach: None };
+        let (reach, earlier) = search.of_earlier_run().unwrap_or(nothing);
+        let edge = match wanted {
+            Wanted::UpTo(limit) if limit > 0.0 && earlier.is_none() => edge_of(&problem, limit)?,
+            _ => None,
+        };
+        Ok(Self { edge, earlier, reach, ..search })
+    }
+
+    /// How far earlier runs have certified modes, and these where they contain what is asked for and no run has looked for the same.
+    fn of_earlier_run(&self) -> Option<(Option<f64>, Option<CertifiedModes>)> {
+        let cache = self.cache().filter(|_| self.wanted != Wanted::Count(0))?;
+        let band: CertifiedBand = cache.of_earlier_run(&self.key_of_boundary().digest())?;
+        let reach = Some(band.count.inertia.sigma);
+        if cache.has(Kind::Modes, &self.key(SEED).digest()) {
+            return Some((reach, None));
+        }
+        let n = self.problem.modal().mass.rows();
+        Some((reach, CertifiedModes::containing(self.wanted, cache, &band, n)))
     }
 
     /// This search with so many slices at the same time, which changes only its time and its memory.
@@ -78,34 +100,88 @@ impl<'a> Search<'a> {
     pub fn n_expected(&self) -> Option<usize> {
         match self.wanted {
             Wanted::Count(count) => Some(count),
-            Wanted::UpTo(_) => self.edge.map(|edge| edge.n_elastic),
+            Wanted::UpTo(_) => match &self.earlier {
+                Some(earlier) => Some(self.n_asked_of(&earlier.modes.lambda)),
+                None => self.edge.map(|edge| edge.n_elastic),
+            },
         }
     }
 
-    /// The lowest modes by this search, or what an earlier run found by the same one.
+    /// The lowest modes by this search, or what an earlier run found by the same one or by one that reaches further.
     ///
     /// # Errors
     /// What [`ModeSource::lowest`] refuses; a solve that did not come down to rounding.
     pub fn lowest_or_earlier(&self, seed: u64) -> Result<Modes> {
+        if let Some(earlier) = &self.earlier {
+            self.cache().iter().for_each(|cache| cache.part_was_taken());
+            // They took no work of this run.
+            return Ok(Modes { work: EigenWork::default(), ..self.asked(earlier.modes.clone()) });
+        }
         let factor = self.problem.component.factor;
-        // What refinement took of a factor in single precision is part of the report, and nobody knows it without the solves. The other
-        // eigensolver is a library of the system, whose bytes no key sees.
-        let is_kept = factor.storage() == Storage::Double && self.eigensolver == Eigensolver::Lanczos;
-        let cache = self.problem.component.partition.cache().filter(|_| is_kept);
-        recalled(cache, || self.key(seed), || factor.vouched(self.lowest(seed)))
+        recalled(self.cache(), || self.key(seed), || factor.vouched(self.lowest(seed)))
     }
 
+    /// The modes with the certificate that none is missing; see [`certified`]. What an earlier run has certified further up is not counted
+    /// again.
+    ///
+    /// # Errors
+    /// As [`certified`].
+    pub fn certified(&self, found: Modes, certify: Certify) -> Result<(Modes, Option<Certificate>)> {
+        if let Some(CertifiedModes { modes, count }) = &self.earlier {
+            let certificate = (certify != Certify::None).then(|| judge((&self.problem, self), modes, *count));
+            return Ok((found, certificate));
+        }
+        let (found, certificate) = certified(self, &self.problem, found, self.edge, certify)?;
+        if let (Some(cache), Some(certificate)) = (self.cache(), &certificate) {
+            self.keep(cache, &found, certificate);
+        }
+        Ok((found, certificate))
+    }
+
+    /// Names the modes of this search for searches that ask for less, where the certificate leaves no doubt.
+    fn keep(&self, cache: &Cache, found: &Modes, certificate: &Certificate) {
+        let is_sound = self.wanted != Wanted::Count(0)
+            && certificate.holds()
+            && certificate.doubt() <= 1.0
+            && certificate.mending == Mending::None;
+        let count = ElasticCount { inertia: certificate.count, n_elastic: found.count() };
+        if is_sound && certificate.n_found == found.count() + self.problem.n_rigid() {
+            let band = CertifiedBand { entry: self.key(SEED).digest(), count };
+            CertifiedModes::keep(cache, &self.key_of_boundary(), &band, self.reach);
+        }
+    }
+
+    /// The cache, where what this search finds is kept.
+    fn cache(&self) -> Option<&'a Cache> {
+        let component = self.problem.component;
+        // What refinement took of a factor in single precision is part of the report, and nobody knows it without the solves. The other
+        // eigensolver is a library of the system, whose bytes no key sees.
+        let is_kept = component.factor.storage() == Storage::Double && self.eigensolver == Eigensolver::Lanczos;
+        component.partition.cache().filter(|_| is_kept)
+    }
+
+    /// The key of the modes from the start vectors of a seed. The count at the end of a band follows from what is in it.
     fn key(&self, seed: u64) -> Key {
-        let Self {
-            problem: BoundaryProblem { component, boundary },
-            wanted,
-            n_asked: _,
-            eigensolver,
-            edge,
-            at_once: _,
-        } = self;
-        let key = component.key("modes").shown(&(boundary, wanted, eigensolver));
-        key.shown(&edge.map(|edge| edge.n_elastic)).numbers(&[seed])
+        let BoundaryProblem { component, boundary } = &self.problem;
+        component.key("modes").shown(&(boundary, self.wanted, self.eigensolver)).numbers(&[seed])
+    }
+
+    /// The key of all modes under the boundary.
+    fn key_of_boundary(&self) -> Key {
+        let BoundaryProblem { component, boundary } = &self.problem;
+        component.key("certified modes").shown(&boundary)
+    }
+
+    /// How many of the lowest modes are asked for, the last cluster whole.
+    fn n_asked_of(&self, lambda: &[f64]) -> usize {
+        let mut count = match self.wanted {
+            Wanted::Count(count) => count.min(lambda.len()),
+            Wanted::UpTo(limit) => lambda.iter().take_while(|lambda| !is_above(**lambda, limit)).count(),
+        };
+        while count > 0 && count < lambda.len() && are_clustered(lambda[count - 1], lambda[count]) {
+            count += 1;
+        }
+        count
     }
 
     /// No modes, where none are looked for.
@@ -179,14 +255,7 @@ impl ModeSource for Search<'_> {
 
     /// One rule for all searches: it looks at the quotients, not at the estimates of an iteration.
     fn asked(&self, modes: Modes) -> Modes {
-        let lambda = &modes.lambda;
-        let mut count = match self.wanted {
-            Wanted::Count(count) => count.min(lambda.len()),
-            Wanted::UpTo(limit) => lambda.iter().take_while(|lambda| !is_above(**lambda, limit)).count(),
-        };
-        while count > 0 && count < lambda.len() && are_clustered(lambda[count - 1], lambda[count]) {
-            count += 1;
-        }
+        let count = self.n_asked_of(&modes.lambda);
         Modes { searched_to: self.wanted.band_end(), ..modes.truncated(count) }
     }
 

@@ -12,12 +12,15 @@ use super::minimum_degree::{minimum_degree, work};
 use super::parts::Parts;
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
+use crate::cache::{Cache, Key, Kind, Reader, Recorded, Writer, recalled};
 use crate::error::Result;
 use crate::model::Model;
 use crate::plan::Parting;
 
 /// Nodes whose neighbours one task lists.
 const NODES_PER_TASK: usize = 2048;
+/// Nodes from which on an order takes longer to find than to read: dissection of so many takes a millisecond.
+const WORTH_AN_ENTRY: usize = 256;
 /// No group of internal dofs.
 const NONE: u32 = u32::MAX;
 
@@ -41,15 +44,16 @@ pub(super) fn elimination_order(model: &Model, transformation: &Transformation, 
     let nodes = InternalNodes::new(transformation, n_internal);
     let graph = node_graph(model, transformation, &nodes);
     let parts = Parts::of(&graph, (model, transformation), |dof| nodes.of_dof.get(dof as usize).copied());
+    let cache = model.cache.as_ref();
     let mut order = Order { dofs: Vec::with_capacity(transformation.dofs.len()), part_ends: Vec::new() };
     if parts.count < 2 || apart == Parting::Together {
-        order.take(&order_of_nodes(&graph)?, &nodes);
+        order.take(&order_of_nodes_or_earlier(&graph, cache)?, &nodes);
     } else {
         let mut members = vec![Vec::new(); parts.count];
         parts.of_group.iter().zip(0u32..).for_each(|(part, group)| members[*part as usize].push(group));
         let mut place = vec![NONE; parts.of_group.len()];
         for members in &members {
-            let of_part = order_of_nodes(&graph.induced(members, &mut place))?;
+            let of_part = order_of_nodes_or_earlier(&graph.induced(members, &mut place), cache)?;
             let groups: Vec<u32> = of_part.into_iter().map(|at| members[at as usize]).collect();
             order.take(&groups, &nodes);
         }
@@ -64,6 +68,34 @@ impl Order {
         groups.iter().for_each(|group| self.dofs.extend_from_slice(nodes.dofs(*group as usize)));
         self.part_ends.push(self.dofs.len());
     }
+}
+
+/// An order as an entry of a cache has it.
+struct KeptOrder(Vec<u32>);
+
+impl Recorded for KeptOrder {
+    const KIND: Kind = Kind::Order;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        to.array(&self.0)
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let order: Vec<u32> = from.array()?;
+        let mut is_met = vec![false; order.len()];
+        let is_new = |node: &u32| is_met.get_mut(*node as usize).is_some_and(|is_met| !std::mem::replace(is_met, true));
+        order.iter().all(is_new).then_some(Self(order))
+    }
+}
+
+/// The order of the nodes of a graph, or the one that an earlier run has found for it.
+fn order_of_nodes_or_earlier(graph: &Graph, cache: Option<&Cache>) -> Result<Vec<u32>> {
+    let Graph { starts, neighbours, weights } = graph;
+    let key = || Key::of("order of nodes").numbers(starts).numbers(neighbours).numbers(weights);
+    let cache = cache.filter(|_| weights.len() >= WORTH_AN_ENTRY);
+    let KeptOrder(order) = recalled(cache, key, || order_of_nodes(graph).map(KeptOrder))?;
+    // A short one would leave nodes out.
+    if order.len() == weights.len() { Ok(order) } else { order_of_nodes(graph) }
 }
 
 /// The order of least work among those that are worth finding.

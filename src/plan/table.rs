@@ -185,10 +185,13 @@ pub const RULES: [Rule; 30] = [
     },
     Rule {
         id: RuleId::K23,
-        leaves_out: "factors, counts and modes that an earlier run with the same cache has computed of the same numbers",
+        leaves_out: "factors, counts, modes and responses that an earlier run with the same cache has computed of the same numbers, \
+                     or for more than is asked",
         kind: Kind::Always,
-        because: "they are found by a digest of these numbers and of the program, so that they have the same bits",
-        guard: "a digest of each entry: what is damaged is computed anew",
+        because: "they are found by a digest of these numbers and of the program, so that they have the same bits; a part of more is \
+                  right to its error bars",
+        guard: "a digest of each entry: what is damaged is computed anew; a part is taken below a count that agrees, a response where its \
+                residual is small at every sample",
         decide: decide::k23,
     },
     Rule {

@@ -39,12 +39,20 @@ pub(super) fn cache(tally: &Tally) -> String {
         Kind::Count => counted(*n, "count", "counts"),
         Kind::Modes => counted(*n, "set of modes", "sets of modes"),
         Kind::Response => counted(*n, "frequency response", "frequency responses"),
+        Kind::Band => counted(*n, "certified band", "certified bands"),
+        Kind::Space => counted(*n, "space of a response", "spaces of responses"),
+        Kind::Order => counted(*n, "order", "orders"),
+        Kind::Statics => counted(*n, "set of constraint modes", "sets of constraint modes"),
     };
     let list = |found: &BTreeMap<Kind, usize>| match found.is_empty() {
         true => "nothing".to_owned(),
         false => found.iter().map(of_kind).collect::<Vec<_>>().join(", "),
     };
-    format!("{} taken from earlier runs · {} kept for later ones", list(&tally.taken), list(&tally.kept))
+    let parts = match tally.parts {
+        0 => String::new(),
+        n => format!(", {} of more than was asked", counted(n, "part", "parts")),
+    };
+    format!("{} taken from earlier runs{parts} · {} kept for later ones", list(&tally.taken), list(&tally.kept))
 }
 
 pub(super) fn mode_kind(kind: ModeKind) -> &'static str {

@@ -5,10 +5,11 @@ use faer::{Mat, MatRef};
 use super::check::{Check, Limits};
 use super::evidence::{Evidence, coordinate_name, coordinate_scales};
 use crate::basis::DynamicCoordinate;
+use crate::cache::{Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::eigen::{Equilibrated, scaled_by};
 use crate::error::Result;
-use crate::factor::SolveOperator;
+use crate::factor::{SolveOperator, Storage};
 use crate::rigid::ILL_CONDITIONED;
 
 /// ‖DK_IID‖₁ ‖(DK_IID)⁻¹‖₁, the second norm estimated from below by a few solves (Hager 1984, Higham 1988).
@@ -16,10 +17,34 @@ use crate::rigid::ILL_CONDITIONED;
 /// The estimate is within a factor of three of the truth in practice. Where the interface leaves rigid-body motions free, there is no such
 /// inverse, and the condition of the answers at the interface counts.
 pub(super) fn internal_condition(evidence: &Evidence<'_>) -> f64 {
-    const MAX_STEPS: usize = 5;
     if let Some(attachment) = &evidence.constraint.attachment {
         return attachment.condition;
     }
+    let cache = evidence.partition.cache().filter(|_| evidence.factor.storage() == Storage::Double);
+    let key = || evidence.partition.key_of_matrices("condition of the interior");
+    let Condition(condition) =
+        recalled(cache, key, || Ok(Condition(estimated(evidence)))).expect("solves give a number");
+    condition
+}
+
+/// A condition as an entry of a cache has it.
+struct Condition(f64);
+
+impl Recorded for Condition {
+    const KIND: Kind = Kind::Statics;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        to.array(&[self.0])
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        from.number().map(Self)
+    }
+}
+
+/// The estimate by solves.
+fn estimated(evidence: &Evidence<'_>) -> f64 {
+    const MAX_STEPS: usize = 5;
     let norms = Equilibrated::of(evidence.partition.internal());
     let n = norms.scale.len();
     let solve = |x: &[f64]| -> Vec<f64> {

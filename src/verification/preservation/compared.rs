@@ -161,14 +161,18 @@ impl Compared {
         const WHAT: &str = "number of modes under other boundaries";
         /// Other starts from which a missing mode is looked for.
         const STARTS: u64 = 3;
+        if references.iter().all(|reference| reference.count.is_some()) {
+            return Ok(());
+        }
         let condensed = Condensed::new(evidence, analysis, references, limit);
         let Some(condensed) = self.kept(WHAT, condensed)? else { return Ok(()) };
         let Some(condensed) = condensed else {
             self.report.not_compared.push(format!("{WHAT}: every shift above the band lies on an eigenvalue"));
             return Ok(());
         };
-        for reference in references {
-            reference.count = condensed.count(evidence, reference)?;
+        for reference in references.iter_mut().filter(|reference| reference.count.is_none()) {
+            let count = condensed.count(evidence, reference)?;
+            reference.counted(evidence, count);
             for start in 1..=STARTS {
                 if reference.count.is_none_or(|count| count.n_counted == count.n_found) {
                     break;
@@ -176,7 +180,8 @@ impl Compared {
                 let again = Reference::new(evidence, reference.boundary.clone(), limit, SEED + start);
                 if let Some(again) = self.kept(&format!("modes with boundary {}", reference.boundary.name), again)? {
                     *reference = again;
-                    reference.count = condensed.count(evidence, reference)?;
+                    let count = condensed.count(evidence, reference)?;
+                    reference.counted(evidence, count);
                 }
             }
             if reference.count.is_none() {

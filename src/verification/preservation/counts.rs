@@ -14,9 +14,10 @@ use super::super::evidence::Evidence;
 use super::boundary::Boundary;
 use super::outcome::BoundaryCount;
 use super::reference::Reference;
+use crate::cache::{Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::error::Result;
-use crate::factor::{Analysis, CONDENSED_GAP, condensed};
+use crate::factor::{Analysis, CONDENSED_GAP, InertiaCount, condensed};
 use crate::sparse::diagonal;
 
 /// Where between the end of the band and the next eigenvalue is counted.
@@ -39,6 +40,25 @@ pub(super) struct Condensed {
     terms: Vec<f64>,
 }
 
+/// A count with S(σ), as an entry of a cache has them.
+struct Counted {
+    count: InertiaCount,
+    schur: Mat<f64>,
+}
+
+impl Recorded for Counted {
+    const KIND: Kind = Kind::Count;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        self.count.write(to)?;
+        to.columns(self.schur.as_ref())
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        Some(Self { count: InertiaCount::read(from)?, schur: from.columns()? })
+    }
+}
+
 impl Condensed {
     /// Factors K − σM above the band at a shift that is off the eigenvalues of all references; none where there is no such shift,
     /// or where rounding decides a sign.
@@ -53,7 +73,9 @@ impl Condensed {
     ) -> Result<Option<Self>> {
         let Some(sigma) = shift(references, limit) else { return Ok(None) };
         let partition = evidence.partition;
-        let (count, schur) = condensed(analysis, partition.pencil(), sigma)?;
+        let key = || partition.key_of_matrices("condensed").numbers(&[sigma]);
+        let made = || condensed(analysis, partition.pencil(), sigma).map(|(count, schur)| Counted { count, schur });
+        let Counted { count, schur } = recalled(partition.cache(), key, made)?;
         if !count.is_off_clamped() {
             return Ok(None);
         }

@@ -15,9 +15,11 @@
 //! together; memory 5 n' r_e.
 
 use faer::{Mat, c64};
+use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
 use super::shift::shift;
+use super::space::{FullModel, RESIDUAL, Space, bound_of, coefficients, size_by};
 use crate::cache::{Reader, Writer};
 use crate::dense;
 use crate::eigen::{Equilibrated, Spectral, complex_shift, mass_qr};
@@ -26,9 +28,6 @@ use crate::factor::SolveOperator;
 use crate::reduction::panel_of;
 use crate::sparse::product;
 
-/// Relative residual that ends the iteration. The error of the response is of the order of its square, times at most the
-/// ratio of the peak to the static response.
-const RESIDUAL: f64 = 1e-7;
 /// Steps after which the residual is taken as it is, and stated.
 const MAX_STEPS: usize = 24;
 /// Steps without progress after which the limit of arithmetic is met. A band with modes that the basis lacks makes none
@@ -61,6 +60,8 @@ pub(super) struct Extended<'a> {
     scale: Vec<f64>,
     /// Steps taken.
     steps: usize,
+    /// The triangle T of all residuals on the basis as it is, once it has been needed.
+    triangle: Option<Mat<f64>>,
 }
 
 /// A residual R(z), n' × n_B.
@@ -88,14 +89,27 @@ impl<'a> Extended<'a> {
         let (stiffness, mass) = (project(&forces), project(&momenta));
         let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), shift(evidence)?)?;
         let scale = Equilibrated::of(partition.pencil()).scale;
-        Ok(Self { evidence, factor, eta, basis, forces, momenta, stiffness, mass, spectral, scale, steps: 0 })
+        Ok(Self {
+            evidence,
+            factor,
+            eta,
+            basis,
+            forces,
+            momenta,
+            stiffness,
+            mass,
+            spectral,
+            scale,
+            steps: 0,
+            triangle: None,
+        })
     }
 
     /// Extends the basis until the residual of every sample is small or falls no more; returns the residual of each.
     ///
     /// # Errors
     /// A projected pencil that is not definite.
-    pub(super) fn settle(&mut self, samples_hz: &[f64]) -> Result<Vec<f64>> {
+    fn settled(&mut self, samples_hz: &[f64]) -> Result<Vec<f64>> {
         let n = samples_hz.len();
         let n_probes = PROBES.min(n);
         // The last sample is the hardest as a rule and always among them.
@@ -129,8 +143,17 @@ impl<'a> Extended<'a> {
     ///
     /// All residuals are combinations of the columns of D [F KΨ_e MΨ_e] = Q T, so their lengths are those of the same
     /// combinations of the small T. That loses no digit: the combination is summed before it is squared.
-    fn residual_sizes(&self, samples_hz: &[f64]) -> Vec<f64> {
-        use rayon::prelude::*;
+    fn residual_sizes(&mut self, samples_hz: &[f64]) -> Vec<f64> {
+        let triangle = self.triangle.take().unwrap_or_else(|| self.triangle());
+        let interface_scale = &self.scale[self.evidence.partition.n_internal..];
+        let size = |hz: &f64| size_by(triangle.as_ref(), self.coefficients(*hz), interface_scale);
+        let sizes = samples_hz.par_iter().map(size).collect();
+        self.triangle = Some(triangle);
+        sizes
+    }
+
+    /// T.
+    fn triangle(&self) -> Mat<f64> {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
         let r = self.basis.ncols();
         let columns = Mat::from_fn(self.basis.nrows(), n_b + 2 * r, |i, j| {
@@ -141,34 +164,11 @@ impl<'a> Extended<'a> {
                     j => self.momenta[(i, j - n_b - r)],
                 }
         });
-        let qr = columns.qr();
-        let t = qr.thin_R();
-        let size = |hz: &f64| {
-            let [real, imaginary] = self.coefficients(*hz).map(|part| dense::product(t, part.as_ref()));
-            (0..n_b).fold(0.0, |worst, j| {
-                let square = |part: &Mat<f64>| dense::norm(dense::column(part.as_ref(), j)).powi(2);
-                let relative = (square(&real) + square(&imaginary)).sqrt() / self.scale[n_i + j];
-                if dense::worse(relative, worst) { relative } else { worst }
-            })
-        };
-        samples_hz.par_iter().map(size).collect()
+        columns.qr().thin_R().to_owned()
     }
 
-    /// What (1 + iη) R is made of: coefficients of F, KΨ_e and MΨ_e, real and imaginary part.
     fn coefficients(&self, frequency_hz: f64) -> [Mat<f64>; 2] {
-        let n_b = self.evidence.partition.n_interface();
-        let r = self.basis.ncols();
-        let z = complex_shift(self.evidence.partition.scaling.eigenvalue(frequency_hz), self.eta);
-        let [re, im] = self.spectral.columns(z, n_b);
-        // M Ψ (z C), part by part.
-        let part = |own: &Mat<f64>, unit: f64, (a, b): (f64, f64)| {
-            Mat::from_fn(n_b + 2 * r, n_b, |i, j| match i {
-                i if i < n_b => unit * f64::from(u8::from(i == j)),
-                i if i < n_b + r => -own[(i - n_b, j)],
-                i => a * re[(i - n_b - r, j)] + b * im[(i - n_b - r, j)],
-            })
-        };
-        [part(&re, 1.0, (z.re, -z.im)), part(&im, 0.0, (z.im, z.re))]
+        coefficients(self.evidence, &self.spectral, (frequency_hz, self.eta))
     }
 
     /// (1 + iη) R of unit forces at a frequency.
@@ -200,6 +200,7 @@ impl<'a> Extended<'a> {
     /// Adds what the factor of K_II answers to a residual; false where nothing new is left.
     fn grow(&mut self, residual: &Residual) -> Result<bool> {
         self.steps += 1;
+        self.triangle = None;
         let partition = self.evidence.partition;
         let (n_i, n) = (partition.n_internal, partition.n_dofs());
         let mut directions = self.compressed(residual)?;
@@ -271,31 +272,31 @@ impl<'a> Extended<'a> {
         dense::columns(block.as_ref(), &kept)
     }
 
-    /// The response matrix of the full model at a frequency, unit forces on the interface dofs, in scaled units.
-    pub(super) fn response(&self, frequency_hz: f64) -> Response {
-        Response::of(&self.spectral, self.evidence, frequency_hz, self.eta)
-    }
-
     /// The spectral form of the full model on the basis, and Ψ_eᵀKΨ_e.
     pub(super) fn into_pencil(self) -> (Spectral, Mat<f64>) {
         (self.spectral, self.stiffness)
     }
 
-    /// Bound on the error of the response at a frequency, entry by entry as the product of two numbers of the rows:
-    /// |ΔH_ij| ≤ ρ_i ρ_j / η with ρ_j = ‖r_j‖ in the norm of K_II⁻¹, to first order in the error.
-    ///
-    /// The error of a Galerkin answer is rᵀ(K_II − zM_II)⁻¹r, and 1/|1 − z/λ| is at most √(1 + η²)/η over λ > 0.
-    pub(super) fn bound(&self, frequency_hz: f64) -> Vec<f64> {
-        let n_i = self.evidence.partition.n_internal;
-        let residual = self.residual(frequency_hz);
-        let squares = residual.parts.map(|part| {
-            let internal = part.as_ref().subrows(0, n_i).to_owned();
-            let mut answer = internal.clone();
-            self.factor.solve_in_place(answer.as_mut());
-            let square = |j| dense::dot(dense::column(internal.as_ref(), j), dense::column(answer.as_ref(), j));
-            (0..part.ncols()).map(square).collect::<Vec<f64>>()
-        });
-        squares[0].iter().zip(&squares[1]).map(|(re, im)| ((re + im) / self.eta).max(0.0).sqrt()).collect()
+    /// What answers in this space again, where every residual is small; none where one is not.
+    pub(super) fn space(&self, residuals: &[f64]) -> Option<Space> {
+        let is_settled = residuals.iter().all(|size| *size <= RESIDUAL);
+        let Self { basis, stiffness, mass, .. } = self;
+        let triangle = self.triangle.as_ref().filter(|_| is_settled)?.clone();
+        Some(Space { basis: basis.clone(), stiffness: stiffness.clone(), mass: mass.clone(), triangle })
+    }
+}
+
+impl FullModel for Extended<'_> {
+    fn spectral(&self) -> &Spectral {
+        &self.spectral
+    }
+
+    fn settle(&mut self, samples_hz: &[f64]) -> Result<Option<Vec<f64>>> {
+        self.settled(samples_hz).map(Some)
+    }
+
+    fn bound(&self, frequency_hz: f64) -> Vec<f64> {
+        bound_of(self.factor, self.evidence, (self.residual(frequency_hz).parts, self.eta))
     }
 }
 

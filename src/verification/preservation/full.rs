@@ -7,11 +7,10 @@ use faer::Mat;
 
 use super::super::evidence::Evidence;
 use super::boundary::Boundary;
-use crate::cache::{Key, recalled};
 use crate::constraint::{FreeAtZero, FreeStatics};
 use crate::eigen::{Factored, ModalProblem, ModeRequest, Modes, Wanted, elastic_modes, shifted};
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, Storage};
+use crate::factor::Analysis;
 use crate::job::Eigensolver;
 use crate::modes::massive;
 use crate::partition::EntriesAt;
@@ -80,18 +79,6 @@ impl Supported {
     /// # Errors
     /// The eigensolver does not converge; no memory.
     pub(super) fn modes_up_to(&self, evidence: &Evidence<'_>, limit: f64, seed: u64) -> Result<Modes> {
-        let cache = evidence.partition.cache().filter(|_| evidence.factor.storage() == Storage::Double);
-        recalled(cache, || self.key(evidence, limit, seed), || self.found_up_to(evidence, limit, seed))
-    }
-
-    fn key(&self, evidence: &Evidence<'_>, limit: f64, seed: u64) -> Key {
-        let Self { stiffness, mass, kept, free, rigid, is_own_stiffness } = self;
-        let key = evidence.constraint.key(evidence.rigid.key(evidence.partition.key("supported modes")));
-        let key = key.matrix(stiffness).matrix(mass).numbers(kept).numbers(free);
-        rigid.key(key).shown(is_own_stiffness).numbers(&[limit]).numbers(&[seed])
-    }
-
-    fn found_up_to(&self, evidence: &Evidence<'_>, limit: f64, seed: u64) -> Result<Modes> {
         let request = ModeRequest { wanted: Wanted::UpTo(limit), eigensolver: Eigensolver::Lanczos, seed };
         let pencil = Pencil::new(&self.stiffness, &self.mass);
         let partition = evidence.partition;

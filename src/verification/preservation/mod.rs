@@ -29,6 +29,7 @@ mod full;
 mod interfaces;
 mod internal_loads;
 mod leading;
+mod levels;
 mod mac;
 mod outcome;
 mod pair_error;
@@ -40,6 +41,7 @@ mod samples;
 mod scan;
 mod shift;
 mod sizes;
+mod space;
 mod statics;
 mod unmade;
 

@@ -4,6 +4,7 @@ use faer::Mat;
 
 use super::boundary::Boundary;
 use super::full::Supported;
+use super::levels::{Levels, Place};
 use super::outcome::BoundaryCount;
 use crate::dense;
 use crate::eigen::ModeError;
@@ -30,37 +31,58 @@ pub(super) struct Reference {
     /// The rigid-body motions that the support lets pass, in the first coordinates that are not held; orthonormal in the mass of the
     /// component with its load.
     passing: Mat<f64>,
+    /// Where a cache keeps what was found, until it is counted.
+    place: Option<Place>,
     /// The Sturm count, where one was made.
     pub(super) count: Option<BoundaryCount>,
 }
 
 impl Reference {
-    /// The full model up to `limit`; the retained modes where they are the answer already and `seed` is the first.
+    /// The full model up to `limit`; the retained modes where they are the answer already and `seed` is the first. What an earlier run has
+    /// counted further comes with that count.
     ///
     /// # Errors
     /// The eigensolver does not converge; no memory.
     pub(super) fn new(evidence: &Evidence<'_>, boundary: Boundary, limit: f64, seed: u64) -> Result<Self> {
+        let mut place = Place::of(evidence, &boundary, (limit, seed));
+        if let Some((levels, count)) = place.as_mut().and_then(Place::counted_further) {
+            return Ok(Self { count: Some(count), ..Self::of(boundary, levels, None) });
+        }
+        let found = || Self::found(evidence, &boundary, (limit, seed));
+        let levels = match &place {
+            Some(place) => place.recalled(found)?,
+            None => found()?,
+        };
+        Ok(Self::of(boundary, levels, place))
+    }
+
+    fn of(boundary: Boundary, levels: Levels, place: Option<Place>) -> Self {
+        let Levels { lambda, errors, next, passing } = levels;
+        Self { boundary, lambda, errors, next, passing, place, count: None }
+    }
+
+    fn found(evidence: &Evidence<'_>, boundary: &Boundary, (limit, seed): (f64, u64)) -> Result<Levels> {
         let modes = &evidence.retained.modes;
         let is_covered = match (modes.next, modes.searched_to) {
             (Some(next), _) => next > limit,
             (None, Some(searched_to)) => searched_to >= limit,
             (None, None) => true,
         };
-        let supported = Supported::new(evidence, &boundary)?;
+        let supported = Supported::new(evidence, boundary)?;
         let found = if boundary.is_own(evidence) && is_covered && seed == SEED {
             modes
         } else {
             &supported.modes_up_to(evidence, limit, seed)?
         };
-        let n_found = found.lambda.iter().take_while(|lambda| **lambda <= limit).count();
-        Ok(Self {
-            boundary,
-            lambda: found.lambda[..n_found].to_vec(),
-            errors: found.errors[..n_found].to_vec(),
-            next: found.lambda.get(n_found).copied().or(found.next),
-            passing: supported.passing(evidence),
-            count: None,
-        })
+        Ok(Levels::up_to(limit, found, supported.passing(evidence)))
+    }
+
+    /// Takes a count, and names what was found for later runs where it agrees.
+    pub(super) fn counted(&mut self, evidence: &Evidence<'_>, count: Option<BoundaryCount>) {
+        self.count = count;
+        if let (Some(place), Some(count)) = (&self.place, count) {
+            place.keep(evidence.partition.scaling.eigenvalue(count.below_hz), count);
+        }
     }
 
     /// Rigid-body motions that the support lets pass.

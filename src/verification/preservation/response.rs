@@ -12,7 +12,8 @@ use super::pair_error::{PairError, magnitude, worst_pair};
 use super::samples;
 use super::scan::Scan;
 use super::shift::shift;
-use crate::cache::{Key, Kind, Reader, Recorded, Writer, recalled};
+use super::space::{FullModel, Known, Space};
+use crate::cache::{Cache, Key, Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::eigen::Spectral;
 use crate::error::Result;
@@ -110,14 +111,14 @@ pub(super) fn compared<'a>(
     let (measured, loads) = match loaded {
         // Internal loads are those of the space that the response was found in.
         Some(own) => {
-            let (measured, extended) = task.measured(First::AllResonances)?;
+            let mut extended = Extended::new(evidence, evidence.factor, eta)?;
+            let measured = task.measured_by_solves(First::AllResonances, &mut extended)?.0;
             let loads = FullLoads::new(own, extended, &measured.full.samples_hz, eta)?;
             (measured, Some(loads))
         }
         None => {
             let cache = evidence.partition.cache().filter(|_| evidence.factor.storage() == Storage::Double);
-            let make = || task.measured(First::SpreadResonances).map(|(measured, _)| measured);
-            (recalled(cache, || task.key(), make)?, None)
+            (recalled(cache, || task.key(), || task.measured_or_known(cache))?, None)
         }
     };
     let report = task.report(&measured);
@@ -143,30 +144,61 @@ struct Task<'t> {
 }
 
 impl<'t> Task<'t> {
-    /// The response of the full model at samples where the reduced one errs most, with the space that it was found in.
+    /// The response of the full model: in the space of an earlier run where that answers all samples, otherwise by solves, whose space is
+    /// kept.
     ///
     /// # Errors
     /// A pencil that is not definite.
-    fn measured(&self, first: First) -> Result<(Measured, Extended<'t>)> {
+    fn measured_or_known(&self, cache: Option<&Cache>) -> Result<Measured> {
+        let key = cache.map(|_| Space::key(self.evidence));
+        let space = cache.zip(key.as_ref()).and_then(|(cache, key)| cache.of_earlier_run(&key.digest()));
+        if let Some(mut known) = space.and_then(|space| Known::of(self.evidence, space, self.eta))
+            && let Some((measured, _)) = self.measured(First::SpreadResonances, &mut known)?
+        {
+            cache.iter().for_each(|cache| cache.part_was_taken());
+            return Ok(measured);
+        }
+        let mut extended = Extended::new(self.evidence, self.evidence.factor, self.eta)?;
+        let (measured, residuals) = self.measured_by_solves(First::SpreadResonances, &mut extended)?;
+        if let (Some((cache, key)), Some(space)) = (cache.zip(key.as_ref()), extended.space(&residuals)) {
+            cache.replace(key, &space);
+        }
+        Ok(measured)
+    }
+
+    /// The response of the full model by solves, which answer every sample, with the residual of each.
+    ///
+    /// # Errors
+    /// A pencil that is not definite.
+    fn measured_by_solves(&self, first: First, extended: &mut Extended<'_>) -> Result<(Measured, Vec<f64>)> {
+        Ok(self.measured(first, extended)?.expect("solves answer every sample"))
+    }
+
+    /// The response of the full model at samples where the reduced one errs most, with the residual of each; none where the model has no
+    /// answer to one.
+    ///
+    /// # Errors
+    /// A pencil that is not definite.
+    fn measured(&self, first: First, full: &mut dyn FullModel) -> Result<Option<(Measured, Vec<f64>)>> {
         let Self { evidence, reduced, band_hz, eta } = *self;
-        let mut extended = Extended::new(evidence, evidence.factor, eta)?;
         let mut samples_hz = samples::first(evidence, reduced, band_hz);
         if first == First::AllResonances {
             samples_hz = samples::with_resonances(evidence, reduced, &samples_hz);
         }
-        let mut residuals = extended.settle(&samples_hz)?;
-        let mut full = FullResponse::new(&extended, &samples_hz, eta);
-        let (mut worst, mut at) = full.worst(evidence, reduced);
+        let Some(mut residuals) = full.settle(&samples_hz)? else { return Ok(None) };
+        let mut response = FullResponse::new(evidence, full.spectral(), (&samples_hz, eta));
+        let (mut worst, mut at) = response.worst(evidence, reduced);
         let mut step = 0.0;
         for _ in 0..PASSES {
-            let scan = Scan { evidence, full: &extended.spectral, reduced, eta };
+            let scan = Scan { evidence, full: full.spectral(), reduced, eta };
             let found = scan.peaks([samples_hz[0], samples_hz[samples_hz.len() - 1]]);
             step = found.step;
             let (known, driven) = ((&samples_hz[..], &found.peaks_hz[..]), [worst.pair.0, worst.pair.1]);
-            samples_hz = samples::with_peaks_and_zeros(evidence, &extended.spectral, known, driven)?;
-            residuals = extended.settle(&samples_hz)?;
-            full = FullResponse::new(&extended, &samples_hz, eta);
-            (worst, at) = full.worst(evidence, reduced);
+            samples_hz = samples::with_peaks_and_zeros(evidence, full.spectral(), known, driven)?;
+            let Some(settled) = full.settle(&samples_hz)? else { return Ok(None) };
+            residuals = settled;
+            response = FullResponse::new(evidence, full.spectral(), (&samples_hz, eta));
+            (worst, at) = response.worst(evidence, reduced);
             if !dense::worse(found.largest_db, (1.0 + SETTLED) * worst.decibel) {
                 break;
             }
@@ -174,9 +206,11 @@ impl<'t> Task<'t> {
         let residual = residuals.iter().fold(0.0, |a, b| if dense::worse(*b, a) { *b } else { a });
         let least_known =
             (0..residuals.len()).fold(0, |a, b| if dense::worse(residuals[b], residuals[a]) { b } else { a });
-        let peak_shift = peak_shift(evidence, &extended.spectral, reduced, band_hz);
-        let uncertainty = (full.uncertainty(&extended, least_known), full.samples_hz[least_known]);
-        Ok((Measured { full, worst, at, residual, step, peak_shift, uncertainty }, extended))
+        let peak_shift = peak_shift(evidence, full.spectral(), reduced, band_hz);
+        let bound = full.bound(response.samples_hz[least_known]);
+        let uncertainty = (response.uncertainty(&bound, least_known), response.samples_hz[least_known]);
+        let measured = Measured { full: response, worst, at, residual, step, peak_shift, uncertainty };
+        Ok(Some((measured, residuals)))
     }
 
     /// The key of all that [`Task::measured`] takes, from the samples of the reduced model alone.
@@ -209,8 +243,9 @@ impl<'t> Task<'t> {
 }
 
 impl FullResponse {
-    fn new(extended: &Extended<'_>, samples_hz: &[f64], eta: f64) -> Self {
-        let answers = samples_hz.par_iter().map(|hz| extended.response(*hz)).collect();
+    /// The response at samples, by the full model in spectral form.
+    fn new(evidence: &Evidence<'_>, spectral: &Spectral, (samples_hz, eta): (&[f64], f64)) -> Self {
+        let answers = samples_hz.par_iter().map(|hz| Response::of(spectral, evidence, *hz, eta)).collect();
         Self { samples_hz: samples_hz.to_vec(), answers, eta }
     }
 
@@ -252,9 +287,9 @@ impl FullResponse {
         self.samples_hz.iter().enumerate().map(sample).collect()
     }
 
-    /// Largest bound on the error of an entry of the full response over that entry, at one sample.
-    fn uncertainty(&self, extended: &Extended<'_>, at: usize) -> f64 {
-        let (answer, bound) = (&self.answers[at], extended.bound(self.samples_hz[at]));
+    /// Largest bound on the error of an entry of the full response over that entry, at one sample; `bound` as [`FullModel::bound`] has it.
+    fn uncertainty(&self, bound: &[f64], at: usize) -> f64 {
+        let answer = &self.answers[at];
         let mut largest = 0.0;
         for j in 0..answer.n() {
             for i in 0..=j {

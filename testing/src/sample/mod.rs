@@ -188,6 +188,7 @@ fn run_facts() -> RunFacts {
         superelement: Some("/models/bracket.supel".into()),
         report: Some("/models/bracket.report.json".into()),
         cache: Some(Tally {
+            parts: 1,
             taken: [(Kind::Factor, 1), (Kind::Count, 2)].into(),
             kept: [(Kind::Modes, 1)].into(),
             damaged: BTreeSet::new(),
