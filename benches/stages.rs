@@ -66,7 +66,7 @@ impl Prepared {
     fn lowest_modes(&self, component: Component<'_>) -> Retained {
         let search = Search::new(component, &self.job.reduction).expect("a search");
         let modes = search.lowest(SEED).expect("it converges");
-        Retained { modes, boundary: search.problem.boundary }
+        Retained::of(modes, search.problem.boundary)
     }
 }
 

@@ -54,6 +54,7 @@ pub(crate) fn prepared(
     facts.notes.extend(coordinates::remark(&model).map(str::to_owned));
 
     observer.stage("partition");
+    let outputs = partition::output_rows(&model, job.scene.as_ref())?;
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let faces = input::patch_faces(&job.model, &partition::patches(&model, job), &allowance)?;
     let (recovered, remark) = recovered.with_faces(&faces);
@@ -68,7 +69,7 @@ pub(crate) fn prepared(
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::in_scene(model, &interfaces, held, (plan.statements(), plan.parting()))?;
-    partition.recovered = recovered;
+    (partition.recovered, partition.outputs) = (recovered, outputs);
     partition.quantities = Quantities::carried(quantities, &partition.transformation);
     partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
     partition.loads = Loads::carried(loads, &partition.transformation)?;
@@ -224,6 +225,7 @@ fn with_reduction<T>(
     observer.stage("certificate");
     let (found, certificate) = search.certified(found, job.certified())?;
     let retained = Retained::new(partition, found, search.problem.boundary);
+    let retained = retained.ranked(partition, plan.gravity());
 
     observer.stage("basis");
     let StaticSet { constraint, n_more } = StaticSet::of(component)?;

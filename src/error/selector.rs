@@ -15,6 +15,8 @@ pub enum Selector {
     Matrix(String),
     /// The nodes whose displacements are recovered.
     Recovery,
+    /// The nodes inside at which the scene looks.
+    Outputs,
     /// The rows of the matrices on which quantities depend.
     Quantities,
 }
@@ -25,6 +27,7 @@ impl Selector {
         match self {
             Self::Interface(name) | Self::Fixed(name) | Self::Load(name) | Self::Matrix(name) => name,
             Self::Recovery => "write.recovery",
+            Self::Outputs => "scene.outputs",
             Self::Quantities => "write.quantities",
         }
     }
@@ -37,7 +40,7 @@ impl fmt::Display for Selector {
             Self::Fixed(name) => write!(f, "fixed {name:?}"),
             Self::Load(name) => write!(f, "load {name:?}"),
             Self::Matrix(name) => write!(f, "matrix {name:?}"),
-            Self::Recovery | Self::Quantities => f.write_str(self.name()),
+            Self::Recovery | Self::Outputs | Self::Quantities => f.write_str(self.name()),
         }
     }
 }

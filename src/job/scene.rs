@@ -10,6 +10,7 @@ use super::analysis::AnalysisJob;
 use super::carrier::CarrierJob;
 use super::gravity::GravityJob;
 use super::interface_part::InterfacePart;
+use super::outputs::OutputsJob;
 use super::ranges::{LARGEST, SMALLEST};
 use super::support::Support;
 
@@ -41,6 +42,9 @@ pub struct SceneJob {
     /// Interfaces that move together as one rigid body, whose motion is prescribed or that of something stiff.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub prescribed: Vec<CarrierJob>,
+    /// Nodes inside the component whose response matters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outputs: Option<OutputsJob>,
     /// Supports under which frequencies are compared; an empty list compares none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub boundaries: Option<Vec<Support>>,

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::analysis::AnalysisJob;
 use super::gravity::GravityJob;
 use super::interface::InterfaceJob;
+use super::outputs::OutputsJob;
 use super::ranges::{number, size};
 use super::scene::SceneJob;
 use super::statements;
@@ -18,6 +19,7 @@ pub(super) fn validate(scene: &SceneJob, interfaces: &[InterfaceJob]) -> Result<
     }
     scene.gravity.map_or(Ok(()), GravityJob::validate)?;
     statements::validate(scene, interfaces)?;
+    scene.outputs.as_ref().map_or(Ok(()), OutputsJob::validate)?;
     if let Some([low, high]) = scene.band_hz {
         if !(low.is_finite() && low >= 0.0) {
             return Err(number("scene.band_hz[0]".to_owned(), low, "zero or more"));

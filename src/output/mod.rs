@@ -5,6 +5,7 @@
 
 mod both;
 mod expansion;
+mod mode_rows;
 mod recovery;
 mod report;
 mod results;

@@ -1,13 +1,13 @@
 //! The body of the report from the results of the stages.
 
 use super::results::Results;
-use super::{expansion, rigid_body, scene, soft_rotation, warnings};
+use super::{expansion, mode_rows, rigid_body, scene, soft_rotation, warnings};
 use crate::basis::DynamicCoordinate;
 use crate::eigen::CLUSTER_GAP;
 use crate::error::{Selector, Warning};
 use crate::input::MatrixFacts;
 use crate::input::{Faces, PatchFaces};
-use crate::job::{Boundary, Certify, InterfaceJob, ModeSelection, Origin};
+use crate::job::{Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::CountedInterval;
 use crate::number::counted;
@@ -15,8 +15,8 @@ use crate::partition::{InterfaceNode, LoadFacts};
 use crate::plan::Mass;
 use crate::report::{
     Completeness, DroppedCoordinate, FacesReport, Generator, HeldReport, InterfacePosition, InterfaceReport,
-    LoadReport, MassProperties, MatrixReport, ModeKind, ModeRow, ModelReport, PositionOrigin, ReductionReport,
-    ReportBody, ResidualVector, RigidBodyModes, SkippedReport, TrustInterval,
+    LoadReport, MassProperties, MatrixReport, ModelReport, PositionOrigin, ReductionReport, ReportBody, ResidualVector,
+    RigidBodyModes, SkippedReport, TrustInterval,
 };
 use crate::rigid::ILL_CONDITIONED;
 use crate::verification::Evidence;
@@ -126,7 +126,8 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
                 reason: format!("depends on the columns before it ({:.1e} of its length is left)", column.remaining),
             })
             .collect(),
-        modes: modes(results),
+        unseen: mode_rows::unseen(results),
+        modes: mode_rows::modes(results),
     }
 }
 
@@ -219,40 +220,6 @@ fn origin(node: &InterfaceNode, jobs: &[InterfaceJob]) -> PositionOrigin {
         Some(Origin::Hole) => PositionOrigin::Hole,
         Some(Origin::Sphere) => PositionOrigin::Sphere,
         Some(Origin::Centroid) | None => PositionOrigin::MeanOfNodes,
-    }
-}
-
-fn modes(results: &Results<'_>) -> Vec<ModeRow> {
-    let evidence = &results.evidence;
-    let modes = &evidence.retained.modes;
-    let kind = kind(evidence.retained.boundary);
-    let row = |(index, (lambda, error)): (usize, (&f64, &crate::eigen::ModeError))| {
-        let frequency_hz = evidence.partition.scaling.hertz(*lambda);
-        ModeRow {
-            index: index + 1,
-            frequency_hz,
-            error_bar_hz: error.bar_of(frequency_hz),
-            backward_error: error.backward,
-            kind,
-            enclosure_hz: enclosure(results, index),
-        }
-    };
-    results.eigenvalues().iter().zip(&modes.errors).enumerate().map(row).collect()
-}
-
-/// The proven interval of a mode as frequencies, rounded outwards.
-fn enclosure(results: &Results<'_>, index: usize) -> Option<[f64; 2]> {
-    const OUTWARD: f64 = 4.0 * f64::EPSILON;
-    let [low, high] = results.evidence.enclosures?.intervals.get(index).copied()??;
-    let scaling = results.evidence.partition.scaling;
-    Some([scaling.hertz(low) * (1.0 - OUTWARD), scaling.hertz(high) * (1.0 + OUTWARD)])
-}
-
-fn kind(boundary: Boundary) -> ModeKind {
-    match boundary {
-        Boundary::FreeInterface => ModeKind::FreeInterface,
-        Boundary::FixedInterface => ModeKind::FixedInterface,
-        Boundary::MixedInterface => ModeKind::MixedInterface,
     }
 }
 
@@ -368,7 +335,7 @@ fn trust_intervals(results: &Results<'_>) -> Vec<TrustInterval> {
     let interval = |counted: &CountedInterval| TrustInterval {
         from_hz: scaling.hertz(counted.from),
         to_hz: scaling.hertz(counted.to),
-        kind: kind(certificate.boundary),
+        kind: mode_rows::kind(certificate.boundary),
         n_counted: counted.n_counted,
         n_found: counted.n_found,
         pivot_growth: counted.growth,

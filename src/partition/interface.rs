@@ -10,7 +10,7 @@ use super::{average_patch, direct_nodes, rigid_patch};
 use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result, Selector};
 use crate::input::{Face, Faces, Patch, PatchFaces, Patches, looks_at_faces};
-use crate::job::{Coupling, InterfaceJob, Job, LoadJob, NodeSelection, RecoveryJob, Selection};
+use crate::job::{Coupling, InterfaceJob, Job, LoadJob, NodeSelection, OutputsJob, RecoveryJob, SceneJob, Selection};
 use crate::model::Model;
 
 /// Finds the rows of every interface and checks that no row is asked for twice.
@@ -84,6 +84,20 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<R
         rows.extend(of_node.map(|(direction, row)| (*row, Dof { node, direction: *direction })));
     }
     Ok(RecoveredRows { rows, positions, faces: None })
+}
+
+/// The rows of the model at which a scene looks; none where it names no nodes.
+///
+/// # Errors
+/// As [`recovered_rows`].
+pub fn output_rows(model: &Model, scene: Option<&SceneJob>) -> Result<Vec<usize>> {
+    let outputs = scene.and_then(|scene| scene.outputs.as_ref());
+    let Some(selection) = outputs.map(OutputsJob::selection) else { return Ok(Vec::new()) };
+    let (catalogue, mut rows) = (NodeCatalogue::new(model), Vec::new());
+    for node in catalogue.select(model, &selection)? {
+        rows.extend(catalogue.rows_of(&selection.selector, node)?.values());
+    }
+    Ok(rows)
 }
 
 /// Labels of the nodes of patches, whose coordinates count.

@@ -71,6 +71,7 @@ impl Partition {
             loads: _,
             expansion: _,
             recovered: _,
+            outputs: _,
             quantities: _,
             matrices: _,
             model: _,

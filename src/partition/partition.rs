@@ -68,6 +68,8 @@ pub struct Partition {
     pub mixed: Option<MixedInterface>,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
     pub recovered: RecoveredRows,
+    /// Rows of the model at which the scene looks.
+    pub outputs: Vec<usize>,
     /// Quantities that the superelement gives; none unless the caller adds them.
     pub quantities: Quantities,
     /// Further matrices of the job; none unless the caller adds them.
@@ -174,8 +176,7 @@ impl Partition {
         let order = ordering::elimination_order(&model, &transformation, parting)?;
         let transformation = transformation.permuted(&order.dofs);
         let n_internal = transformation.n_internal();
-        let n_interface = transformation.dofs.len() - n_internal;
-        refuse_larger(n_interface)?;
+        refuse_larger(transformation.dofs.len() - n_internal)?;
         let mut findings = missing_directions::constrained_nodes(&model, &resolved);
         let mut facts = ModelFacts { n_dependent, n_held, ..facts(&model, &transformation, &held) };
         facts.findings.extend(constrained);
@@ -192,6 +193,8 @@ impl Partition {
         }
         findings.extend(of_interface(far_origins, [stiffness, mass], &transformation, (names, &facts.rows)));
         Ok(Self {
+            loads: Loads::none(carried.stiffness.rows()),
+            expansion: Expansion::none(carried.stiffness.rows()),
             cancellation: carried.cancellation,
             fit: model.fit,
             model: facts,
@@ -207,10 +210,9 @@ impl Partition {
             followers,
             held,
             gravity,
-            loads: Loads::none(n_internal + n_interface),
-            expansion: Expansion::none(n_internal + n_interface),
             mixed: None,
             recovered: RecoveredRows::default(),
+            outputs: Vec::new(),
             quantities: Quantities::default(),
             matrices: Vec::new(),
             scaling: model.scaling,

@@ -1,6 +1,6 @@
 //! What the simulation will ask, gathered from all of a job.
 
-use crate::job::{AnalysisJob, Boundary, InterfaceJob, Job, Method, ModeOrigin, SceneJob, Skip};
+use crate::job::{AnalysisJob, Boundary, InterfaceJob, Job, Method, ModeOrigin, RecoveryJob, SceneJob, Skip};
 
 /// The scene of a job with what other keys say of the simulation.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,13 @@ impl<'a> Scene<'a> {
 
     /// Whether displacements inside the component, or what follows from them, are wanted.
     pub fn recovers(&self) -> bool {
-        self.job.write.recovery.is_some() || self.job.write.quantities.is_some()
+        self.recovery().is_some() || self.job.write.quantities.is_some()
+    }
+
+    /// The recovery that the job asks for, otherwise that of the nodes at which its scene looks.
+    pub(super) fn recovery(&self) -> Option<RecoveryJob> {
+        let of_scene = || Some(self.stated?.outputs.as_ref()?.recovery());
+        self.job.write.recovery.clone().or_else(of_scene)
     }
 
     /// The end of the band, where the scene states one.

@@ -44,6 +44,8 @@ pub struct ReductionReport {
     pub skipped: Vec<SkippedReport>,
     /// The elastic modes in ascending order.
     pub modes: Vec<ModeRow>,
+    /// Numbers of the kept modes that interface, outputs and loads neither excite nor observe, from one.
+    pub unseen: Vec<usize>,
 }
 
 impl ReductionReport {
@@ -153,6 +155,11 @@ pub struct ModeRow {
     pub error_bar_hz: f64,
     /// Backward error of the eigenpair (M-01).
     pub backward_error: f64,
+    /// What the mode contributes at the interface, to outputs and under loads, the largest of them: displacement, reaction or work in units of
+    /// what the stiffness of that dof alone makes of the energy of the mode.
+    pub coupling: f64,
+    /// Its place when modes are ordered by that, from one.
+    pub rank: usize,
     /// Under which boundary the mode was computed.
     pub kind: ModeKind,
     /// An interval that is proved to hold an eigenvalue, where `--certify full` asked for it.

@@ -42,7 +42,7 @@ pub(super) fn cache(tally: &Tally) -> String {
         Kind::Band => counted(*n, "certified band", "certified bands"),
         Kind::Space => counted(*n, "space of a response", "spaces of responses"),
         Kind::Order => counted(*n, "order", "orders"),
-        Kind::Statics => counted(*n, "set of constraint modes", "sets of constraint modes"),
+        Kind::Statics => counted(*n, "statics", "statics"),
     };
     let list = |found: &BTreeMap<Kind, usize>| match found.is_empty() {
         true => "nothing".to_owned(),
@@ -53,6 +53,19 @@ pub(super) fn cache(tally: &Tally) -> String {
         n => format!(", {} of more than was asked", counted(n, "part", "parts")),
     };
     format!("{} taken from earlier runs{parts} · {} kept for later ones", list(&tally.taken), list(&tally.kept))
+}
+
+/// Modes that nothing sees; none where there are none.
+pub(super) fn unseen(reduction: &ReductionReport) -> Option<String> {
+    let unseen = &reduction.unseen;
+    (!unseen.is_empty()).then(|| {
+        let numbers: Vec<String> = unseen.iter().map(ToString::to_string).collect();
+        format!(
+            "{} {}: interface, outputs and loads neither excite nor observe them",
+            if unseen.len() == 1 { "mode" } else { "modes" },
+            numbers.join(", ")
+        )
+    })
 }
 
 pub(super) fn mode_kind(kind: ModeKind) -> &'static str {

@@ -55,7 +55,7 @@ pub(super) fn pencil<'a>(evidence: &Evidence<'a>) -> Pencil<'a> {
 
 /// The shapes of the retained modes at the dofs of that pencil.
 fn shapes<'a>(evidence: &Evidence<'a>) -> Cow<'a, Mat<f64>> {
-    let Retained { modes, boundary } = evidence.retained;
+    let Retained { modes, boundary, .. } = evidence.retained;
     let rows = evidence.partition.rows_under(*boundary, modes.shapes.as_ref());
     rows.map_or(Cow::Borrowed(&modes.shapes), Cow::Owned)
 }

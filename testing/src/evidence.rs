@@ -34,7 +34,7 @@ pub fn with_evidence<T>(
     let component = Component::new(&partition, &analysis, &factor, &rigid, Some(&constraint));
     let job = ReductionJob::new(method, ModeSelection::Count { count });
     let search = Search::new(component, &job).expect("a stable component");
-    let retained = Retained { modes: search.lowest(SEED).expect("modes"), boundary: search.problem.boundary };
+    let retained = Retained::of(search.lowest(SEED).expect("modes"), search.problem.boundary);
     let basis = Basis::new(
         &constraint,
         &supel::basis::retained_columns(component, &constraint, Relief::of_reduction(&job), &retained),

@@ -11,6 +11,7 @@ mod links;
 mod macneal;
 mod methods;
 mod misleading;
+mod outputs;
 mod penalties;
 mod recovery;
 mod reference_node;

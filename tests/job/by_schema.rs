@@ -41,7 +41,7 @@ fn job(interfaces: &Value, modes: &Value, recovered: &Value) -> Value {
         "matrix": [{ "name": "seal", "kind": "damping", "file": "C.mtx" }],
         "damping": { "rayleigh": { "mass": 0.25, "stiffness": 0.5, "mass_acts_on": "deformation" }, "modal": { "ratio": 0.25 }, "rigid_motion": "resist" },
         "reduction": { "method": "herting", "modes": modes, "inertia_relief": true, "eigensolver": "arpack" },
-        "scene": { "analysis": "transient", "gravity": [0.25, 0.5, 1.5], "unloaded": ["hub.ry", "hub.rx"], "grounded": ["hub.ux"], "prescribed": [], "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5", "spring:hub=1e5"], "damping": { "ratio": 0.25 }, "accept": { "frequency": 0.25, "response_db": 1.5, "internal_load": 0.5, "static": 0.125 } },
+        "scene": { "analysis": "transient", "gravity": [0.25, 0.5, 1.5], "unloaded": ["hub.ry", "hub.rx"], "grounded": ["hub.ux"], "prescribed": [], "outputs": { "nodes": [7] }, "band_hz": [0.25, 500.5], "boundaries": ["free", "fix:hub", "mass:hub", "mass:hub=2.5", "spring:hub=1e5"], "damping": { "ratio": 0.25 }, "accept": { "frequency": 0.25, "response_db": 1.5, "internal_load": 0.5, "static": 0.125 } },
         "run": { "certify": "full", "memory_gib": 4.5, "precision": "mixed", "constraint_modes": "stored", "skip": "nothing" },
         "write": {
             "superelement": "x.supel", "report": "x.json", "html": "x.html", "junit": "x.xml",

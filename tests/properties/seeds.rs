@@ -42,7 +42,7 @@ fn built(method: Method, count: usize, seed: u64) -> Built {
     let job = ReductionJob::new(method, ModeSelection::Count { count });
     let search = Search::new(component, &job).expect("counts");
     let found = search.lowest(seed).expect("converges");
-    let retained = Retained { modes: found, boundary: search.problem.boundary };
+    let retained = Retained::of(found, search.problem.boundary);
     let basis = Basis::new(
         &constraint,
         &supel::basis::retained_columns(component, &constraint, Relief::of_reduction(&job), &retained),

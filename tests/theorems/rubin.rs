@@ -11,7 +11,7 @@ use crate::chain::{Chain, EPS, Method, Twin, absolute, direct, psi, reduce, term
 
 fn rubin(chain: &Chain) -> Rubin {
     let job = ReductionJob::new(Method::Rubin, ModeSelection::Count { count: N_MODES });
-    let retained = Retained { modes: chain.modes.clone(), boundary: Method::Rubin.boundary() };
+    let retained = Retained::of(chain.modes.clone(), Method::Rubin.boundary());
     let found = rubin_where_asked(&job, &chain.basis, &chain.reduction, &retained);
     found.expect("an interior that deforms").expect("an interface")
 }

@@ -80,7 +80,9 @@ pub(super) fn assumptions(scene: &Scene<'_>) -> Vec<String> {
         .prescribed
         .iter()
         .map(|carrier| format!("{} move as parts of the rigid body {}", carrier.interfaces.join(", "), carrier.name));
-    unloaded.into_iter().chain(grounded).chain(carried).collect()
+    let inside =
+        stated.outputs.is_some().then(|| "inside the component recovered nodes alone are looked at".to_owned());
+    unloaded.into_iter().chain(grounded).chain(carried).chain(inside).collect()
 }
 
 pub(in crate::plan) fn k8(scene: &Scene<'_>, _: Option<&Facts>) -> Decision {

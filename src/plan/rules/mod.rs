@@ -31,6 +31,7 @@ pub(super) fn needed(scene: &Scene<'_>) -> Job {
     let mut job = scene.job.clone();
     statics::leave_dynamics_out(scene, &mut job);
     modes::choose_cut_off(scene, &mut job);
+    job.write.recovery = scene.recovery();
     job.reduction.inertia_relief = match relief(scene) {
         Relief::None => false,
         Relief::Every | Relief::Translations(_) => !job.reduction.method.has_inertia_relief(),

@@ -128,7 +128,7 @@ pub(in crate::plan) fn k17(scene: &Scene<'_>, facts: Option<&Facts>) -> Decision
 }
 
 pub(in crate::plan) fn k18(scene: &Scene<'_>, _: Option<&Facts>) -> Decision {
-    match &scene.job.write.recovery {
+    match scene.recovery() {
         Some(recovery) if recovery.precision == Precision::Single => {
             Decision::left_out("half the digits of the recovered rows: the job asks for single precision")
         }

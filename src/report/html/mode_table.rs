@@ -16,7 +16,7 @@ pub(super) fn mode_table(page: &mut Markup, modes: &[ModeRow], preserved: &[Pres
     if is_enclosed {
         heads.extend(["proved above, Hz", "proved below, Hz"]);
     }
-    heads.push("backward error");
+    heads.extend(["contribution", "rank", "backward error"]);
     if !preserved.is_empty() {
         heads.extend(["reduced, Hz", "difference", "MAC"]);
     }
@@ -34,7 +34,11 @@ pub(super) fn mode_table(page: &mut Markup, modes: &[ModeRow], preserved: &[Pres
                 None => cells.extend([none(), none()]),
             }
         }
-        cells.push(Cell::Number(scientific(mode.backward_error, 2)));
+        cells.extend([
+            Cell::Number(scientific(mode.coupling, 2)),
+            Cell::Number(mode.rank.to_string()),
+            Cell::Number(scientific(mode.backward_error, 2)),
+        ]);
         if !preserved.is_empty() {
             match preserved.iter().find(|other| other.index == mode.index) {
                 Some(other) => cells.extend([
@@ -48,7 +52,8 @@ pub(super) fn mode_table(page: &mut Markup, modes: &[ModeRow], preserved: &[Pres
         cells
     });
     let mut caption =
-        "Retained modes: natural frequency of the full model with its error bar, and the backward error of the \
+        "Retained modes: natural frequency of the full model with its error bar, what the mode contributes at the \
+                       interface, to outputs and under loads with its place in that order, and the backward error of the \
                        mode in the full model"
             .to_owned();
     if is_enclosed {

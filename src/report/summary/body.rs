@@ -134,6 +134,7 @@ fn reduced(page: &mut Page, reduction: &ReductionReport) {
     }
     let solver = words::eigensolver(reduction.eigensolver);
     let worst = reduction.modes.iter().map(|mode| mode.backward_error).fold(0.0, f64::max);
+    words::unseen(reduction).iter().for_each(|unseen| page.entry("unseen", unseen));
     if let Some(mode) = reduction.modes.first() {
         let kind = words::modes_under(mode.kind, reduction.modes_held.as_deref());
         let worst = number::scientific(worst, 2);

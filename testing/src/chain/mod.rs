@@ -153,7 +153,7 @@ pub fn reduce(
         }
     };
     let component = Component::new(&partition, &analysis, &factor, &rigid, Some(&constraint));
-    let retained = Retained { modes, boundary };
+    let retained = Retained::of(modes, boundary);
     let job = ReductionJob::new(method, ModeSelection::Count { count });
     let named = retained_columns(component, &constraint, Relief::of_reduction(&job), &retained);
     let basis = Basis::new(&constraint, &named, partition.internal().mass);

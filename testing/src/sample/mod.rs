@@ -78,6 +78,8 @@ pub fn passing_report() -> Report {
 
 fn body() -> ReportBody {
     let row = |index: usize| ModeRow {
+        coupling: 0.25,
+        rank: index,
         index,
         frequency_hz: evidence::frequency(index),
         error_bar_hz: 1.7e-10 * (index as f64),
@@ -103,6 +105,7 @@ fn body() -> ReportBody {
             dropped: Vec::new(),
             skipped: Vec::new(),
             modes: (1..=50).map(row).collect(),
+            unseen: Vec::new(),
         },
         checks: vec![Check {
             id: "M-01",
