@@ -29,7 +29,6 @@ use crate::eigen::{Equilibrated, ModeError, Modes};
 use crate::error::{Error, Result};
 use crate::factor::InertiaCount;
 use crate::job::{Boundary, Certify};
-use crate::number::counted;
 use crate::random::SEED;
 use crate::sparse::Pencil;
 
@@ -293,20 +292,6 @@ pub(super) fn judge(
         n_finite: None,
         mending: Mending::None,
         n_factorisations: 0,
-    }
-}
-
-/// Why counts and modes do not agree where modes other than the rigid-body ones were found below zero: no interval above zero has them, and
-/// every count does.
-pub(super) fn below_zero(problem: &BoundaryProblem<'_>, modes: &Modes) -> Option<Error> {
-    let count = modes.lambda.iter().filter(|lambda| **lambda < 0.0).count();
-    let partition = problem.component.partition;
-    let what = || format!("whether {} free", counted(count, "mode below zero is", "modes below zero are"));
-    match (count, partition.has_few_digits()) {
-        (0, _) => None,
-        (_, true) => Some(Error::DigitsTooFew { what: what(), known: partition.precision.stiffness.in_words() }),
-        // What is unstable with some dofs held is so with none.
-        (count, false) => Some(Error::IndefiniteStiffness { count, boundary: "free" }),
     }
 }
 

@@ -19,7 +19,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::boundary_problem::BoundaryProblem;
-use super::certificate::below_zero;
 use super::counts::{Counts, middle};
 use crate::dense;
 use crate::eigen::ElasticCount;
@@ -28,6 +27,7 @@ use crate::eigen::{CLUSTER_GAP, Modes, judged, pairs_between, settled_at};
 use crate::eigen::{EigenWork, Eigenpairs, Interval, Problem, are_clustered};
 use crate::error::{Error, Result};
 use crate::job::Eigensolver;
+use crate::number::counted;
 use crate::random::SEED;
 use crate::sparse::product;
 
@@ -269,6 +269,20 @@ fn side_by_side<T: Send + Sync>(
         }
     });
     answers.into_iter().map(|answer| answer.into_inner().expect("each place was taken once")).collect()
+}
+
+/// Why counts and modes do not agree where modes other than the rigid-body ones were found below zero: no interval above zero has them, and
+/// every count does.
+fn below_zero(problem: &BoundaryProblem<'_>, modes: &Modes) -> Option<Error> {
+    let count = modes.lambda.iter().filter(|lambda| **lambda < 0.0).count();
+    let partition = problem.component.partition;
+    let what = || format!("whether {} free", counted(count, "mode below zero is", "modes below zero are"));
+    match (count, partition.has_few_digits()) {
+        (0, _) => None,
+        (_, true) => Some(Error::DigitsTooFew { what: what(), known: partition.precision.stiffness.in_words() }),
+        // What is unstable with some dofs held is so with none.
+        (count, false) => Some(Error::IndefiniteStiffness { count, boundary: "free" }),
+    }
 }
 
 /// The error of an interval that is given up: why counts and modes differ where that is known, or that modes are missing.

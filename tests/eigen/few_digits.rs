@@ -43,15 +43,20 @@ fn look(model: &supel_models::Model, interfaces: &[InterfaceJob], digits: u32) -
     Found { asymmetry: asymmetry(&partition, &rigid, &operator), work }
 }
 
+/// |xᵀA⁻¹y − yᵀA⁻¹x| over the root of both energies, root mean square over the pairs of six loads: that of one pair is chance.
 fn asymmetry(partition: &Partition, rigid: &RigidBodyModes, operator: &dyn ShiftInvert) -> f64 {
-    let any = Mat::from_fn(partition.n_dofs(), 2, |i, j| ((3 * i + 7 * i * j + 1) as f64).sin());
+    const N_LOADS: usize = 6;
+    let any = Mat::from_fn(partition.n_dofs(), N_LOADS, |i, j| ((3 * i + 7 * i * j + 1) as f64).sin());
     let mut loads = product(&partition.mass, any.as_ref());
     let resultant = dense::gram(rigid.orthonormal.as_ref(), loads.as_ref());
     dense::add_product(loads.as_mut(), -1.0, rigid.mass_orthonormal.as_ref(), resultant.as_ref());
     let mut answers = loads.clone();
     operator.solve_in_place(answers.as_mut());
     let work = dense::gram(loads.as_ref(), answers.as_ref());
-    (work[(0, 1)] - work[(1, 0)]).abs() / (work[(0, 0)] * work[(1, 1)]).sqrt()
+    let of_pair = |(i, j): (usize, usize)| (work[(i, j)] - work[(j, i)]).powi(2) / (work[(i, i)] * work[(j, j)]);
+    let pairs: Vec<(usize, usize)> = (1..N_LOADS).flat_map(|j| (0..j).map(move |i| (i, j))).collect();
+    let squares: f64 = pairs.iter().copied().map(of_pair).sum();
+    (squares / pairs.len() as f64).sqrt()
 }
 
 fn parts() -> Vec<(&'static str, supel_models::Model, Vec<InterfaceJob>)> {

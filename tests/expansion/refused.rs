@@ -41,7 +41,7 @@ fn texts_that_are_no_modes() {
         (coordinate("135 3 2\n1 1 1\n1 3 1\n"), vec!["E-MODES-NOTHING", "mode 2", "zero everywhere"]),
         (coordinate("135 2 2\n1 1 1\n1 2 0\n"), vec!["E-MODES-NOTHING", "mode 2", "zero everywhere"]),
         (array(&[mode(N), vec![0.0; N]]), vec!["E-MODES-NOTHING", "mode 2"]),
-        (few, vec!["E-NNZ", "found 134"]),
+        (few, vec!["E-NNZ", "modes.mtx:136", "the end of the file after 134"]),
         (sound.clone() + "1\n", vec!["E-NNZ-SURPLUS"]),
         (sound.replace("7.00000000000000000e0", "nan"), vec!["E-NONFINITE", "entry (7, 1)"]),
         (sound.replace("7.00000000000000000e0", "seven"), vec!["E-ENTRY", "`seven`"]),

@@ -102,7 +102,7 @@ fn files_that_are_no_loads() {
         (array_of(37), "", vec!["E-LOAD-ROWS", "load `a` has 37 rows – expected 36"]),
         (several.clone(), "", vec!["E-LOAD-COLUMN", "the only column of a file of 2 columns"]),
         (several, ", column = 2", vec!["E-LOAD-COLUMN", "column 2 of a file of 2 columns"]),
-        (few, "", vec!["E-NNZ", "found 35"]),
+        (few, "", vec!["E-NNZ", "a.mtx:37", "the end of the file after 35"]),
         (array_of(36) + "1\n", "", vec!["E-NNZ-SURPLUS", ":39:"]),
         (nan, "", vec!["E-NONFINITE", ":9:", "entry (7, 1)", "`nan`"]),
         (word, "", vec!["E-ENTRY", ":9:", "`seven`"]),
