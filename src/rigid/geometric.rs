@@ -188,7 +188,7 @@ fn free_motions(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<
         return Err(Error::MasslessRigidMotion { relative_mass: 0.0 });
     }
     if n_free < motions.ncols() && is_free_to_k(partition, &found)? {
-        let [massive, massless] = found.map(|energies| energies.given);
+        let [massive, massless] = found.map(|energies| energies.motions);
         return Ok((massive, massless));
     }
     Ok((found[0].free(), found[1].free()))
@@ -305,9 +305,7 @@ fn mass_orthonormal(mass: &SparseMatrix, motions: MatRef<'_, f64>, rounding: f64
 
 /// What some motions cost, each by itself.
 struct Energies {
-    /// The motions as they were given.
-    given: Mat<f64>,
-    /// They, combined so that none shares energy with another.
+    /// The motions, combined so that none shares energy with another.
     motions: Mat<f64>,
     /// xᵀKx of each, ascending.
     energies: Vec<f64>,
@@ -328,7 +326,7 @@ impl Energies {
         let energies = dense::dots(motions.as_ref(), forces.as_ref());
         let zero = zero::of_alike(&energies, &zero_energies(partition, motions.as_ref(), terms.as_ref()));
         let noise = sizes.iter().map(|size| noise_share(partition) * size).collect();
-        Ok(Self { given: x.to_owned(), motions, energies, noise, zero })
+        Ok(Self { motions, energies, noise, zero })
     }
 
     /// How many of them cost no more than `levels`.
@@ -336,11 +334,7 @@ impl Energies {
         self.energies.iter().zip(levels).filter(|(energy, level)| energy <= level).count()
     }
 
-    /// Those that cost nothing; all of them as they were given, which rounding of their energies would mix.
     fn free(&self) -> Mat<f64> {
-        if self.n_within(&self.zero) == self.energies.len() {
-            return self.given.clone();
-        }
         let free: Vec<usize> = (0..self.energies.len()).filter(|j| self.energies[*j] <= self.zero[*j]).collect();
         Mat::from_fn(self.motions.nrows(), free.len(), |i, j| self.motions[(i, free[j])])
     }

@@ -109,14 +109,18 @@ fn a_small_part_that_its_patch_holds_has_no_other_zero_modes() {
     }
 }
 
-/// Two nodes react no turn about their line, and to nine digits a little of it: Rubin's method takes that for nothing in the second
-/// reduction, too, where the motions come from the matrices.
+/// A node of a part on a rail reacts no turn about itself, and to nine digits a little of it: Rubin's method takes that for nothing in the
+/// second reduction, too, where the motions come from the matrices.
 #[test]
 fn digits_are_no_reaction_of_an_interface() {
-    let place = Place::with(&rounded(&steel_brick(), 9));
-    let flags = "--interface p=7 --interface q=29 --method rubin --modes 4";
-    place.reduce(&place.model_flags(), flags).expect(ExitCode::Done);
-    again(&place, "two nodes");
+    let place = Place::with(&rounded(&brick([4, 2, 2], [0.2, 0.06, 0.04], &Material::STEEL_SI), 9));
+    let job = "model = { stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }\n\
+         interface = [{ name = \"p\", nodes = [21] }]\n\
+         fixed = [{ name = \"rail\", nodes = [20, 3, 24, 12], dofs = [\"uy\"] }]\n\
+         reduction = { method = \"rubin\", modes = { count = 4 } }\nwrite = { superelement = \"x.supel\" }\n";
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    again(&place, "one node");
 }
 
 /// Two nodes that slide with hardly any stiffness of their own: what rounding of their displacements does to dofs next to them that are held
