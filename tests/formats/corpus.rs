@@ -107,7 +107,6 @@ fn as_csv(rows: &[Row]) -> String {
 }
 
 /// With `SUPEL_UPDATE_DOCS` the table is made anew. A file that is refused names itself.
-#[cfg(feature = "hdf5")]
 #[test]
 fn every_file_of_the_corpus_is_read_or_refused_as_the_table_says() {
     let Some(pairs) = supel_testing::corpus::corpus() else { return };
