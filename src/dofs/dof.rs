@@ -20,3 +20,17 @@ impl std::fmt::Display for Dof {
 /// The degree of freedom of every row, in row order; none for a scalar dof, an amplitude that belongs to no node and that rigid-body
 /// motion leaves at rest.
 pub type DofMap = Vec<Option<Dof>>;
+
+/// The radius of gyration by the masses of dofs, M_ii, of rotations over those of translations; none where either is nothing. Dofs without a
+/// direction do not count.
+pub(crate) fn gyration(masses: impl IntoIterator<Item = (Option<Direction>, f64)>) -> Option<f64> {
+    let [mut translations, mut rotations] = [0.0; 2];
+    for (direction, mass) in masses {
+        match direction.map(Direction::is_rotation) {
+            Some(true) => rotations += mass,
+            Some(false) => translations += mass,
+            None => {}
+        }
+    }
+    Some(f64::sqrt(rotations / translations)).filter(|radius| radius.is_normal())
+}

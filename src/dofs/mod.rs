@@ -4,6 +4,7 @@ mod dof;
 mod file_rows;
 mod nodes;
 
+pub(crate) use dof::gyration;
 pub use dof::{Dof, DofMap};
 pub use file_rows::{FileRows, RowNames};
 pub use nodes::Nodes;

@@ -19,6 +19,7 @@ use faer::{Mat, MatRef};
 use supel_runtime::{Coordinate, Direction, Matrix, Superelement};
 
 use crate::dense;
+use crate::dofs::gyration;
 use crate::error::Result;
 
 /// Sine between a row and rigid-body motion that moves it alone: two bodies a hundred times their size apart leave 10⁻¹² of rounding. Three
@@ -128,15 +129,11 @@ pub(crate) type Place = (Direction, [f64; 3]);
 /// place the radius of gyration about it, by the `masses` of the rows, M_ii; one of all else.
 pub(crate) fn lengths(places: &[Option<Place>], masses: &[f64]) -> Vec<f64> {
     let positions: Vec<[f64; 3]> = places.iter().flatten().map(|(_, position)| *position).collect();
-    let turns = |place: &Option<Place>| place.map(|(direction, _)| direction.is_rotation());
-    let sum = |kind: bool| {
-        let rows = places.iter().zip(masses).filter(|(place, _)| turns(place) == Some(kind));
-        rows.map(|(_, mass)| mass).sum::<f64>()
-    };
-    let gyration = (sum(true) / sum(false)).sqrt();
-    let of_one_place = if gyration.is_normal() { gyration } else { 1.0 };
-    let length = span(&positions).unwrap_or(of_one_place);
-    places.iter().map(|place| if turns(place) == Some(true) { length } else { 1.0 }).collect()
+    let turns = |place: &Option<Place>| place.is_some_and(|(direction, _)| direction.is_rotation());
+    let directions = places.iter().map(|place| place.map(|(direction, _)| direction));
+    let of_one_place = || gyration(directions.zip(masses.iter().copied()));
+    let length = span(&positions).or_else(of_one_place).unwrap_or(1.0);
+    places.iter().map(|place| if turns(place) { length } else { 1.0 }).collect()
 }
 
 /// The largest distance from the mean; none where all are one place.

@@ -7,6 +7,7 @@ use faer::Mat;
 
 use super::rigid_body_modes::RigidBodyModes;
 use crate::dense;
+use crate::dofs::gyration;
 use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
 use crate::error::{Error, Result};
 use crate::factor::Cholesky;
@@ -104,7 +105,11 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
 
 /// What each dof is multiplied by to be compared with others: a rotation by the size of the component.
 pub(crate) fn scales(partition: &Partition) -> Vec<f64> {
-    let size = partition.sites().map_or(1.0, |sites| extent(&sites).or(gyration(partition, &sites)).unwrap_or(1.0));
+    let of_one_place = |sites: &[Option<Site>]| {
+        let directions = sites.iter().map(|site| site.map(|site| site.direction));
+        gyration(directions.zip(diagonal(&partition.mass)))
+    };
+    let size = partition.sites().and_then(|sites| extent(&sites).or_else(|| of_one_place(&sites))).unwrap_or(1.0);
     let stiffness = diagonal(&partition.stiffness);
     let scale = |dof: usize| match (partition.dofs[dof].origin, partition.dofs[dof].site) {
         (_, Some(site)) if site.direction.is_rotation() => size,
@@ -153,16 +158,6 @@ fn extent(sites: &[Option<Site>]) -> Option<f64> {
     }
     let size = (0..3).map(|axis| (high[axis] - low[axis]).powi(2)).sum::<f64>().sqrt();
     (size > 0.0).then_some(size)
-}
-
-/// The radius of gyration by the masses of rotations and translations; none where one of them is nothing.
-fn gyration(partition: &Partition, sites: &[Option<Site>]) -> Option<f64> {
-    let mass = diagonal(&partition.mass);
-    let sum = |turns: bool| {
-        let own = sites.iter().zip(&mass).filter(|(site, _)| site.is_some_and(|s| s.direction.is_rotation() == turns));
-        own.map(|(_, mass)| mass).sum::<f64>()
-    };
-    Some((sum(true) / sum(false)).sqrt()).filter(|radius| radius.is_normal())
 }
 
 /// Puts a rigid motion into words: the axis it turns about, or the direction it moves in.

@@ -29,7 +29,7 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    /// Those of some modes up to a limit.
+    /// Of the modes up to a limit.
     pub(super) fn up_to(limit: f64, found: &Modes, passing: Mat<f64>) -> Self {
         let Modes { lambda, errors, next, .. } = found;
         Self { lambda: lambda.clone(), errors: errors.clone(), next: *next, passing }.cut(limit)
