@@ -10,6 +10,9 @@ use crate::model::Finding;
 
 /// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
 const SIX_DIGITS: f64 = 1e-6;
+/// Displacement out of place, in units of the size of a body, that coordinates of five digits leave. Of a free body zero modes mend
+/// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
+pub(super) const FIVE_DIGITS: f64 = 2e-5;
 /// Nodes out of place that a message names.
 const SHOWN_NODES: usize = 3;
 /// Share of the rows of a held body that supports may touch before the others are too few to be a witness: rows in an order
@@ -74,13 +77,23 @@ fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[D
         let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding().max(body.lever_rounding), f64::max);
         let has_energy = is_free && turning_costs(motions, body, rotation);
         let residual = residual(rotation);
-        let is_costly = residual > NOTICEABLE * noise || has_energy;
+        let is_out_of_place = |row: &usize| is_out_of_place(motions, *row, (rotation, body.lever_rounding));
+        let is_costly = residual > NOTICEABLE * noise || has_energy || witnesses.iter().any(is_out_of_place);
         is_costly.then_some(Costly { rotation, residual, witnesses, is_free })
     };
     let is_said = |axis: &usize| held.contains(&Direction::ALL[FIRST_ROTATION + axis]);
     let mut costly: Vec<Costly> = (0..3).filter(|axis| !is_said(axis)).filter_map(look).collect();
     costly.sort_by(|a, b| b.residual.total_cmp(&a.residual));
     costly
+}
+
+/// Whether a rotation makes a force at a row that is noticeable among the terms of this row alone: forces of a soft part are nothing among
+/// those of a stiff one, and its frequencies depend on them all the same.
+fn is_out_of_place(motions: &Motions<'_>, row: usize, (rotation, lever_rounding): (usize, f64)) -> bool {
+    let scale = motions.scale_of(row);
+    let displacement = |motion: usize| motions.forces[(row, motion)].abs() / scale;
+    let noise = (0..FIRST_ROTATION).map(displacement).fold(motions.rounding_at(row).max(lever_rounding), f64::max);
+    scale > 0.0 && displacement(rotation) > FIVE_DIGITS.max(NOTICEABLE * noise)
 }
 
 /// Whether a rotation costs more than rounding, and more than soft springs to ground can hold of it. Those hold displacements by unit

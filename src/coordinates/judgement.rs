@@ -1,6 +1,6 @@
 //! The decision about a doubt: supports, rounded coordinates, or coordinates that belong to another model.
 
-use super::doubt::{Costly, Doubt, Place};
+use super::doubt::{Costly, Doubt, FIVE_DIGITS, Place};
 use super::free::Free;
 use super::mended::mended;
 use super::motions::{AXES, Motions};
@@ -22,10 +22,7 @@ const SOFTLY_HELD: f64 = 1e-6;
 /// normal numbers is 7 times the median one, and digits may be lost unevenly by some 10. A node out of place by a hundredth
 /// stands out by 10³ to 10⁴.
 const EVEN: f64 = 100.0;
-/// Displacement out of place, in units of the size of a held body, that coordinates of five digits leave. Of a free body zero modes mend
-/// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
-const FIVE_DIGITS: f64 = 2e-5;
-/// That of coordinates of three digits, which is as much as belongs to any model of the same nodes: a map of other nodes or axes moves
+/// Displacement out of place that coordinates of three digits leave, which is as much as belongs to any model of the same nodes: a map of other nodes or axes moves
 /// them by a hundredth or more.
 const THREE_DIGITS: f64 = 2e-3;
 

@@ -51,7 +51,7 @@ fn tetrahedra() -> Model {
 }
 
 /// Its matrices in so many digits, as a file tells them.
-fn with_digits(model: &Model, digits: u32) -> Input {
+pub(crate) fn with_digits(model: &Model, digits: u32) -> Input {
     let input = input(&rounded(model, digits as usize));
     let known = Digits { significant: digits, ..Digits::DOUBLE };
     let of = |matrix: MatrixInput| MatrixInput { digits: known, ..matrix };

@@ -6,6 +6,7 @@
 mod faults;
 mod frames;
 mod mass;
+mod soft;
 mod sound;
 mod table;
 mod thin;
