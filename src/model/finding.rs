@@ -2,9 +2,12 @@
 
 use crate::dofs::{Direction, RowNames};
 use crate::number::{counted, quantity};
+use crate::sparse::Rounding;
 
-/// Above this relative asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
+/// Above this share of the largest entry in asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;
+/// The same relative to the two rows of an entry, which have the rounding of stiffer ones that their sums were condensed from.
+const ASYMMETRY_OF_ROWS_WARN: f64 = 1e-9;
 /// Times the median diagonal entry of K above which a row is held or tied by a penalty, whatever it costs: rotations of thick parts in
 /// millimetres and soft joints come to 10⁸ of each other. Smaller ones are named by the digits they take, once there are modes.
 pub(super) const PENALTY: f64 = 1e10;
@@ -20,7 +23,9 @@ pub enum Finding {
         /// `stiffness` or `mass`.
         matrix: &'static str,
         /// max |A − Aᵀ| / max |A|.
-        asymmetry: f64,
+        of_largest: f64,
+        /// The largest |A_ij − A_ji| / √(A_ii A_jj).
+        of_rows: f64,
     },
     /// Rows without mass: their frequencies are infinite and are never returned.
     MasslessRows {
@@ -162,10 +167,20 @@ impl Finding {
         }
     }
 
+    /// How well entries are known by this finding: each of two triangles that differ may be the right one.
+    pub(super) fn known_by(&self, rounding: Rounding) -> Rounding {
+        match self {
+            Self::Symmetrised { of_rows, .. } if self.warning().is_some() => rounding.of_parts(0.5 * of_rows),
+            _ => rounding,
+        }
+    }
+
     /// The code of the warning that a finding is, or nothing where it is a remark.
     pub fn warning(&self) -> Option<&'static str> {
         match self {
-            Self::Symmetrised { asymmetry, .. } => (*asymmetry > ASYMMETRY_WARN).then_some("W-UNSYMMETRIC"),
+            Self::Symmetrised { of_largest, of_rows, .. } => {
+                (*of_largest > ASYMMETRY_WARN || *of_rows > ASYMMETRY_OF_ROWS_WARN).then_some("W-UNSYMMETRIC")
+            }
             Self::MasslessRows { .. } | Self::HeldByDiagonal { .. } | Self::Constrained { .. } => None,
             Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
             Self::MassCouplesOthers { .. } => Some("W-MASS-ORDER"),
@@ -186,10 +201,10 @@ impl Finding {
 impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Symmetrised { matrix, asymmetry } => {
+            Self::Symmetrised { matrix, of_rows, .. } => {
                 write!(
                     f,
-                    "the {matrix} matrix was symmetric to {asymmetry:.1e} only and was replaced by its symmetric part"
+                    "the {matrix} matrix was symmetric to {of_rows:.1e} of its rows only and was replaced by its symmetric part"
                 )
             }
             Self::MasslessRows { n_rows } => write!(f, "{} no mass: their frequencies are infinite", counted(*n_rows, "row has", "rows have")),

@@ -99,8 +99,10 @@ impl ModelFacts {
     }
 }
 
-/// Above this relative asymmetry the matrix is not that of a conservative structure.
+/// Above this share of its largest entry in asymmetry the matrix is not that of a conservative structure.
 pub const ASYMMETRY_FAIL: f64 = 1e-6;
+/// The same relative to the two rows of an entry. Below it the rows are known to no more than that, which error bars say.
+pub const ASYMMETRY_OF_ROWS_FAIL: f64 = 1e-3;
 
 impl Model {
     /// Checks and scales what was read.
@@ -114,12 +116,15 @@ impl Model {
     pub fn new(input: Input) -> Result<Self> {
         refuse_same(&input.stiffness, &input.mass)?;
         let mut findings = Vec::new();
-        let read = [&input.stiffness, &input.mass].map(rounding_of);
+        let mut read = [&input.stiffness, &input.mass].map(rounding_of);
         let (dofs, rows) = (input.dofs, input.rows);
         let names = RowNames { rows: &rows, dofs: dofs.as_deref() };
         let (stiffness, mass) =
             rayon::join(|| symmetrised("stiffness", input.stiffness, names), || symmetrised("mass", input.mass, names));
         let ((mut stiffness, of_stiffness), (mut mass, of_mass)) = (stiffness?, mass?);
+        for (rounding, finding) in read.iter_mut().zip([&of_stiffness, &of_mass]) {
+            *rounding = finding.as_ref().map_or(*rounding, |finding| finding.known_by(*rounding));
+        }
         findings.extend(of_stiffness.into_iter().chain(of_mass));
         assert!(stiffness.rows() == mass.rows(), "K has {} rows, M has {}", stiffness.rows(), mass.rows());
         check_not_swapped(&stiffness, &mass, dofs.as_deref())?;
@@ -221,6 +226,11 @@ fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
 
 /// What the entries of a matrix may be off by, in the units of its file.
 pub(crate) fn rounding_of(matrix: &MatrixInput) -> Rounding {
+    let own = rounding_as_written(matrix);
+    matrix.notes.turned.map_or(own, |turned| own.turned(turned))
+}
+
+fn rounding_as_written(matrix: &MatrixInput) -> Rounding {
     let n_parts = matrix.notes.most_repeated.max(1);
     let is_of_parts = n_parts > 1;
     let half_unit = |decimals: i32| 0.5 * 10f64.powi(-decimals) * n_parts as f64;
@@ -242,18 +252,18 @@ fn in_units(rounding: Rounding, unit: f64) -> Rounding {
 fn symmetrised(name: &'static str, input: MatrixInput, names: RowNames<'_>) -> Result<(SparseMatrix, Option<Finding>)> {
     let mut matrix = input.matrix;
     let asymmetry = make_symmetric(&mut matrix);
-    if asymmetry.relative > ASYMMETRY_FAIL {
+    if asymmetry.of_largest > ASYMMETRY_FAIL || asymmetry.of_rows > ASYMMETRY_OF_ROWS_FAIL {
         let place = format!(
             "{}, column {}{}",
             names.full(asymmetry.worst.0),
             names.number(asymmetry.worst.1),
             names.bracketed(asymmetry.worst.1)
         );
-        let Asymmetry { relative: asymmetry, unpaired, .. } = asymmetry;
+        let Asymmetry { of_rows: asymmetry, unpaired, .. } = asymmetry;
         return Err(Error::Unsymmetric { matrix: name, asymmetry, place, unpaired });
     }
-    let is_mended = asymmetry.relative > 0.0;
-    Ok((matrix, is_mended.then_some(Finding::Symmetrised { matrix: name, asymmetry: asymmetry.relative })))
+    let Asymmetry { of_largest, of_rows, .. } = asymmetry;
+    Ok((matrix, (of_rows > 0.0).then_some(Finding::Symmetrised { matrix: name, of_largest, of_rows })))
 }
 
 /// K and M exchanged: a unit translation makes no force at most rows of a stiffness, held or free, and inertia at every

@@ -4,14 +4,16 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::sparse::{SparseMatrix, balanced_ranges};
+use crate::sparse::{SparseMatrix, balanced_ranges, diagonal};
 
 /// How far a matrix was from symmetric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Asymmetry {
     /// max |A − Aᵀ| / max |A|.
-    pub relative: f64,
-    /// Row and column of the largest difference.
+    pub of_largest: f64,
+    /// The largest |A_ij − A_ji| / √(A_ii A_jj): a stiff row hides nothing of a soft one.
+    pub of_rows: f64,
+    /// Row and column of this one.
     pub worst: (usize, usize),
     /// Entries below and above the diagonal that have none at their mirror image.
     pub unpaired: [usize; 2],
@@ -22,20 +24,50 @@ pub struct Asymmetry {
 /// A position stored on one side only counts as zero on the other and is given to both.
 pub fn make_symmetric(matrix: &mut SparseMatrix) -> Asymmetry {
     if is_symmetric(matrix) {
-        return Asymmetry { relative: 0.0, worst: (0, 0), unpaired: [0, 0] };
+        return Asymmetry { of_largest: 0.0, of_rows: 0.0, worst: (0, 0), unpaired: [0, 0] };
     }
-    let largest = matrix.data().iter().fold(0.0f64, |max, value| max.max(value.abs()));
-    let (mut worst, mut unpaired) = ((0.0, (0, 0)), [0, 0]);
-    if !walk_pairs(matrix, &mut worst) {
+    let mut differences = Differences::of(matrix);
+    let mut unpaired = [0, 0];
+    if !walk_pairs(matrix, &mut differences) {
         let transposed = matrix.transpose_view().to_csr();
         *matrix = sprs::binop::csmat_binop(matrix.view(), transposed.view(), |a, b| 0.5 * (a + b));
         unpaired = n_unpaired(&transposed);
-        let one_sided = one_sided_difference(matrix, &transposed);
-        if one_sided.0 > worst.0 {
-            worst = one_sided;
+        one_sided_differences(matrix, &transposed, &mut differences);
+    }
+    let Differences { largest, most, of_rows, worst, .. } = differences;
+    Asymmetry { of_largest: if largest > 0.0 { most / largest } else { 0.0 }, of_rows, worst, unpaired }
+}
+
+/// Share of the largest entry below which a diagonal entry tells no size of its row: what rounding leaves of massless rows.
+const NO_SIZE: f64 = 1e-12;
+
+/// Differences of entries at (i, j) and (j, i).
+struct Differences {
+    /// max |A|.
+    largest: f64,
+    /// √A_ii of each row.
+    sizes: Vec<f64>,
+    /// The largest of all.
+    most: f64,
+    /// The largest relative to its rows, and where.
+    of_rows: f64,
+    worst: (usize, usize),
+}
+
+impl Differences {
+    fn of(matrix: &SparseMatrix) -> Self {
+        let largest = matrix.data().iter().fold(0.0f64, |max, value| max.max(value.abs()));
+        let sizes = diagonal(matrix).into_iter().map(|value| value.abs().max(NO_SIZE * largest).sqrt()).collect();
+        Self { largest, sizes, most: 0.0, of_rows: 0.0, worst: (0, 0) }
+    }
+
+    fn add(&mut self, difference: f64, (row, col): (usize, usize)) {
+        self.most = self.most.max(difference);
+        let of_rows = difference / (self.sizes[row] * self.sizes[col]);
+        if of_rows > self.of_rows {
+            (self.of_rows, self.worst) = (of_rows, (row, col));
         }
     }
-    Asymmetry { relative: if largest > 0.0 { worst.0 / largest } else { 0.0 }, worst: worst.1, unpaired }
 }
 
 /// Whether a matrix has the same values at (i, j) and (j, i), by ranges of rows side by side.
@@ -81,7 +113,7 @@ fn unmatched_above(matrix: &SparseMatrix, pointers: &[usize], rows: Range<usize>
 ///
 /// Rows are visited in ascending order. The entries of row j right of its diagonal are then met in ascending column
 /// order by the rows below, so one cursor for each row finds every partner without a search.
-fn walk_pairs(matrix: &mut SparseMatrix, worst: &mut (f64, (usize, usize))) -> bool {
+fn walk_pairs(matrix: &mut SparseMatrix, differences: &mut Differences) -> bool {
     let n = matrix.rows();
     let pointers: Vec<usize> = matrix.indptr().raw_storage().to_vec();
     let columns: Vec<u32> = matrix.indices().to_vec();
@@ -104,10 +136,7 @@ fn walk_pairs(matrix: &mut SparseMatrix, worst: &mut (f64, (usize, usize))) -> b
             }
             cursor[col] += 1;
             if data[at] != data[partner] {
-                let difference = (data[at] - data[partner]).abs();
-                if difference > worst.0 {
-                    *worst = (difference, (row, col));
-                }
+                differences.add((data[at] - data[partner]).abs(), (row, col));
                 let mean = 0.5 * (data[at] + data[partner]);
                 data[at] = mean;
                 data[partner] = mean;
@@ -129,17 +158,15 @@ fn n_unpaired(transposed: &SparseMatrix) -> [usize; 2] {
     unpaired
 }
 
-fn one_sided_difference(mean: &SparseMatrix, transposed: &SparseMatrix) -> (f64, (usize, usize)) {
-    let mut worst = (0.0, (0, 0));
+fn one_sided_differences(mean: &SparseMatrix, transposed: &SparseMatrix, differences: &mut Differences) {
     for (row, view) in mean.outer_iterator().enumerate() {
         for (col, value) in view.iter() {
             let difference = 2.0 * (transposed.get(row, col).copied().unwrap_or(0.0) - value).abs();
-            if difference > worst.0 {
-                worst = (difference, (row, col));
+            if difference > 0.0 {
+                differences.add(difference, (row, col));
             }
         }
     }
-    worst
 }
 
 #[cfg(test)]
@@ -192,7 +219,7 @@ mod tests {
     fn symmetric_matrix_keeps_its_bits() {
         let mut a = matrix(&[(0, 0, 2.0), (0, 1, -0.1), (1, 0, -0.1), (1, 1, 3.0), (2, 2, 1.0)]);
         let before = a.clone();
-        assert_eq!(make_symmetric(&mut a).relative, 0.0);
+        assert_eq!(make_symmetric(&mut a).of_rows, 0.0);
         assert_eq!(a, before);
     }
 
@@ -200,7 +227,8 @@ mod tests {
     fn unequal_pair_is_averaged_and_measured() {
         let mut a = matrix(&[(0, 0, 2.0), (0, 1, 1.0), (1, 0, 0.5), (1, 1, 3.0), (2, 2, 4.0)]);
         let found = make_symmetric(&mut a);
-        assert_eq!(found, Asymmetry { relative: 0.125, worst: (1, 0), unpaired: [0, 0] });
+        let of_rows = 0.5 / (2f64.sqrt() * 3f64.sqrt());
+        assert_eq!(found, Asymmetry { of_largest: 0.125, of_rows, worst: (1, 0), unpaired: [0, 0] });
         assert_eq!((a.get(0, 1), a.get(1, 0)), (Some(&0.75), Some(&0.75)));
     }
 
@@ -208,7 +236,7 @@ mod tests {
     fn entry_on_one_side_only_is_given_to_both() {
         let mut a = matrix(&[(0, 0, 2.0), (0, 2, 1.0), (1, 1, 2.0), (2, 2, 2.0)]);
         let found = make_symmetric(&mut a);
-        assert_eq!(found.relative, 0.5);
+        assert_eq!(found.of_largest, 0.5);
         assert_eq!((a.get(0, 2), a.get(2, 0)), (Some(&0.5), Some(&0.5)));
     }
 }

@@ -5,8 +5,8 @@
 //! G T₁ x = 0         the constraints on these; interface dofs among them stay
 //! x = C q,  T = T₁C  dependent dofs follow the others: the pencil TᵀKT, TᵀMT has no constraint left
 //! ```
-//! Coefficients are made comparable first, by powers of two: a rotation by the extent of the nodes that it takes part with, a constraint
-//! by its largest term. What a patch makes of a constraint is relative to the terms that it sums, so that constraints that the patch
+//! Coefficients are made comparable first, by powers of two: a rotation by the extent of the nodes that it takes part with, or by the lever
+//! of its constraints, a constraint by its largest term. What a patch makes of a constraint is relative to the terms that it sums, so that constraints that the patch
 //! satisfies anyway are rounding and follow from it.
 
 use std::collections::BTreeMap;
@@ -23,6 +23,10 @@ use crate::model::{Finding, Frame, Model};
 const LARGEST: f64 = 1e4;
 /// Exponents of coefficients: products of two with coordinates are numbers.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
+/// Share of the size of the model below which nodes are at one place.
+const ONE_PLACE: f64 = 1e-12;
+/// Share of its largest terms that may be left of a constraint: pivots of 10⁻⁵ leave 10⁵ roundings of terms up to [`LARGEST`].
+const BROKEN: f64 = 1e-6;
 /// What it takes to let a dof of a patch follow others: more than any row of a matrix, so that dofs of nodes are taken first.
 const OF_PATCH: u32 = u32::MAX;
 
@@ -48,6 +52,7 @@ pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(
         (dof, terms.collect())
     };
     let dependent: BTreeMap<u32, Terms> = dependent.into_iter().map(in_units).collect();
+    refuse_broken(model, given, &rows, &Solved { dofs: &transformation.dofs, scales: &scales, dependent: &dependent })?;
     let n_dependent = dependent.len();
     let transformation = transformation.constrained(&dependent);
     if transformation.dofs.is_empty() {
@@ -67,32 +72,95 @@ fn refuse_out_of_range(given: &ConstraintRows) -> Result<()> {
     outside.next().map_or(Ok(()), |exponent| Err(Error::UnitRange { what: "a constraint", exponent }))
 }
 
-/// What a displacement of each dof is measured in: one, and for a rotation the reciprocal of the extent of the nodes that constraints tie
-/// it to.
+/// What a displacement of each dof is measured in: one, and for a rotation the reciprocal of a length at which it is felt. That is the
+/// extent of the nodes that constraints tie it to, or the lever of a constraint: how much larger its coefficients of rotations are than those
+/// of displacements. Nodes at one place have no extent but the rounding of their coordinates, and a lever longer than the model is none.
 fn scales(model: &Model, given: &ConstraintRows, transformation: &Transformation) -> Vec<f64> {
     let dofs = &transformation.dofs;
-    let mut extents = vec![0.0f64; dofs.len()];
+    let whole = size(model);
+    let mut lengths = vec![0.0f64; dofs.len()];
     for row in &given.list {
-        let of_row = || row.terms.iter().flat_map(|(row, _)| transformation.rows[*row as usize].entries());
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for site in of_row().filter_map(|(dof, _)| dofs[dof as usize].site) {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(site.position[axis]);
-                high[axis] = high[axis].max(site.position[axis]);
+        let length = extent(row, transformation).max(lever(row, transformation).min(whole));
+        let of_row = row.terms.iter().flat_map(|(row, _)| transformation.rows[*row as usize].entries());
+        of_row.for_each(|(dof, _)| lengths[dof as usize] = lengths[dof as usize].max(length));
+    }
+    let scale = |(dof, length): (&ReducedDof, f64)| {
+        let length = if length > ONE_PLACE * whole { length } else { whole };
+        if is_rotation(dof) { (-length.log2().floor()).exp2() } else { 1.0 }
+    };
+    dofs.iter().zip(lengths).map(scale).collect()
+}
+
+/// The extent of the model; one where it has no coordinates.
+fn size(model: &Model) -> f64 {
+    model.sites().map_or(1.0, |sites| Frame::of(&sites, &(0..sites.len()).collect::<Vec<_>>()).size)
+}
+
+fn is_rotation(dof: &ReducedDof) -> bool {
+    dof.site.is_some_and(|site| site.direction.is_rotation())
+}
+
+/// The extent of the nodes of a constraint.
+fn extent(row: &Constraint, transformation: &Transformation) -> f64 {
+    let of_row = row.terms.iter().flat_map(|(row, _)| transformation.rows[*row as usize].entries());
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for site in of_row.filter_map(|(dof, _)| transformation.dofs[dof as usize].site) {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(site.position[axis]);
+            high[axis] = high[axis].max(site.position[axis]);
+        }
+    }
+    (0..3).map(|axis| (high[axis] - low[axis]).max(0.0).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The largest coefficient of a rotation over that of a displacement; nothing where it has none of either.
+fn lever(row: &Constraint, transformation: &Transformation) -> f64 {
+    let [mut turning, mut moving] = [0.0f64; 2];
+    for (row, value) in &row.terms {
+        for (dof, factor) in transformation.rows[*row as usize].entries() {
+            let dof = &transformation.dofs[dof as usize];
+            let largest = if is_rotation(dof) { &mut turning } else { &mut moving };
+            *largest = largest.max((value * factor).abs());
+        }
+    }
+    if moving > 0.0 { turning / moving } else { 0.0 }
+}
+
+/// Makes sure that every constraint holds, those that were left out among them: what is left of its terms for each dof is rounding of these.
+/// The size of the model is what turns rotations into displacements here, which is not the measure that the constraints were solved by.
+fn refuse_broken(model: &Model, given: &ConstraintRows, carried: &[Terms], found: &Solved<'_>) -> Result<()> {
+    let whole = size(model);
+    for (row, terms) in given.list.iter().zip(carried) {
+        let mut of_dofs: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
+        for (dof, value) in terms {
+            let value = value / found.scales[*dof as usize];
+            let own = [(*dof, 1.0)];
+            for (other, factor) in found.dependent.get(dof).map_or(&own[..], Vec::as_slice) {
+                let (sum, size) = of_dofs.entry(*other).or_default();
+                (*sum, *size) = (*sum + value * factor, *size + (value * factor).abs());
             }
         }
-        let extent = (0..3).map(|axis| (high[axis] - low[axis]).max(0.0).powi(2)).sum::<f64>().sqrt();
-        of_row().for_each(|(dof, _)| extents[dof as usize] = extents[dof as usize].max(extent));
-    }
-    let whole = model.sites().map_or(1.0, |sites| Frame::of(&sites, &(0..sites.len()).collect::<Vec<_>>()).size);
-    let scale = |(dof, extent): (&ReducedDof, f64)| match dof.site {
-        Some(site) if site.direction.is_rotation() => {
-            let extent = if extent > 0.0 { extent } else { whole };
-            (-extent.log2().floor()).exp2()
+        let in_displacements =
+            |dof: u32, size: f64| if is_rotation(&found.dofs[dof as usize]) { size / whole } else { size };
+        let largest = of_dofs.iter().fold(0.0f64, |most, (dof, (_, size))| most.max(in_displacements(*dof, *size)));
+        let left = of_dofs.iter().map(|(dof, (sum, _))| in_displacements(*dof, sum.abs())).fold(0.0, f64::max);
+        if left > BROKEN * largest {
+            return Err(Error::ConstraintRank {
+                row: row.row + 1,
+                dofs: row.dofs(model.names()),
+                left: left / largest,
+            });
         }
-        _ => 1.0,
-    };
-    dofs.iter().zip(extents).map(scale).collect()
+    }
+    Ok(())
+}
+
+/// How dofs follow others.
+struct Solved<'a> {
+    dofs: &'a [ReducedDof],
+    scales: &'a [f64],
+    /// Each dependent dof with its terms.
+    dependent: &'a BTreeMap<u32, Terms>,
 }
 
 /// A constraint on the dofs, its largest term in [1, 2).

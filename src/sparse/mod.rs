@@ -15,6 +15,7 @@ mod principal;
 mod product;
 mod rounding;
 mod triangle;
+mod turning;
 
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
 pub(crate) use energy::{absolute_energy, energies_of_terms};
@@ -26,6 +27,7 @@ pub use product::{absolute_product, multiply, panels, product, product_and_terms
 pub use rounding::Rounding;
 pub(crate) use rounding::ends;
 pub use triangle::Triangle;
+pub use turning::{Turned, TurnedRoundings, Turning};
 
 /// A symmetric sparse matrix in compressed rows, both triangles stored, indices sorted, no duplicates.
 pub type SparseMatrix = sprs::CsMatI<f64, u32, usize>;
@@ -79,7 +81,7 @@ pub struct TripletBlocks {
 }
 
 /// What assembling a matrix did beyond copying, for the user.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AssemblyNotes {
     /// Entries that repeated an earlier position and were added to it.
     pub n_duplicates: usize,
@@ -91,4 +93,6 @@ pub struct AssemblyNotes {
     pub given: Given,
     /// The triangle in which all entries were given; none where some stand in either, or it was not asked.
     pub triangle: Option<Triangle>,
+    /// What turning rows made of the roundings of its entries; none where no row was turned.
+    pub turned: Option<TurnedRoundings>,
 }

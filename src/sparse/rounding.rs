@@ -12,6 +12,7 @@ use faer::{Mat, MatRef};
 
 use super::leading::Leading;
 use super::product::absolute_product;
+use super::turning::TurnedRoundings;
 
 /// Share of its own size that half a unit of the last digit is at least, in units of that of the smallest number of as many digits:
 /// single precision counts as seven digits, and is coarser than these where the first of them is a nine.
@@ -54,6 +55,25 @@ impl Rounding {
         };
         let share = (0..matrix.rows()).map(of_row).fold(self.relative, f64::max);
         Self { share: share.min(1.0), ..self }
+    }
+
+    /// Of the matrix with some of its rows turned. Entries there are sums; those of double precision are rounded once more, to as much.
+    #[must_use]
+    pub fn turned(self, turned: TurnedRoundings) -> Self {
+        // Of the nine entries that make one up to three in each row of T count in full.
+        let of_parts = Self { absolute: 3.0 * self.absolute, is_of_parts: true, n_alike: f64::INFINITY, ..self };
+        if !self.is_coarse() && turned.of_axes == 0.0 {
+            return of_parts;
+        }
+        let relative = (self.relative * turned.enlargement + turned.of_axes).min(1.0);
+        Self { relative, share: relative, ..of_parts }
+    }
+
+    /// At least that share of √(A_ii A_jj).
+    #[must_use]
+    pub fn of_parts(self, share: f64) -> Self {
+        let relative = self.relative.max(share);
+        Self { relative, share: relative, is_of_parts: true, n_alike: f64::INFINITY, ..self }
     }
 
     /// Whether the entries were rounded to fewer digits than double precision has.
@@ -138,6 +158,19 @@ fn half_unit(size: f64, precision: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn turned_rows_know_what_rounding_of_a_stiff_direction_makes() {
+        let six_digits = Rounding { absolute: 0.5, ..Rounding::relative(0.5e-5) };
+        let turned = six_digits.turned(TurnedRoundings { enlargement: 40.0, of_axes: 1e-4 });
+        // Relative to the ends: 40 of its own and what the axes make; three times half a unit of fixed point.
+        assert!(
+            (turned.of_entry(0.0, 1e6) / 300.0 - 1.0).abs() < 1e-12 && turned.of_entry(0.0, 0.0) == 1.5,
+            "{turned:?}"
+        );
+        let binary = Rounding::BINARY.turned(TurnedRoundings { enlargement: 40.0, of_axes: 0.0 });
+        assert!(binary.is_of_parts && !binary.is_coarse(), "{binary:?}");
+    }
 
     #[test]
     fn half_a_unit_is_that_of_the_last_digit() {

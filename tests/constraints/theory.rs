@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use faer::Mat;
 use supel::cli::ExitCode;
-use supel_models::{Material, Model, brick};
+use supel_models::transform::join;
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
 use supel_runtime::Superelement;
 use supel_testing::place::{Place, assert_close, frequencies_hz, steel_brick, supel};
 
@@ -229,6 +230,38 @@ fn spherical_joint_between_two_parts() {
     let expected: Vec<f64> =
         lambda[9..].iter().take(frequencies_hz(&reduced).len()).map(|lambda| lambda.sqrt() / TAU).collect();
     assert_close(&frequencies_hz(&reduced), &expected, DENSE);
+}
+
+/// Two frames bolted at three points between nodes at one place, which levers alone tell apart: nine equations, of which three follow from
+/// the others. Coordinates differ by rounding, or a little; the bolts are where they are.
+#[test]
+fn bolts_between_nodes_at_one_place() {
+    let section = Section::round(0.02);
+    for apart in [0.0, 5.6e-17, 1e-12, 1e-9, 1e-6, 1e-3] {
+        let first: Vec<[f64; 3]> = (0..4).map(|i| [0.1 * f64::from(i), 0.0, 0.0]).collect();
+        let mut second: Vec<[f64; 3]> = (0..4).map(|i| [0.3, 0.1 * f64::from(i), 0.03 * f64::from(i * i)]).collect();
+        second.iter_mut().for_each(|x| x[2] += apart);
+        let edges = [[0, 1], [1, 2], [2, 3]];
+        let part = |nodes: &[[f64; 3]]| frame(nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent);
+        let model = join(&part(&first), &part(&second), &[]);
+        let bolts = [[0.3, 0.05, 0.0], [0.3, -0.05, 0.01], [0.35, 0.0, 0.03]];
+        let of_bolt = |bolt: [f64; 3], axis: usize| -> Vec<(u32, f64)> {
+            let of_node = |label: i64, sign: f64| {
+                let x = position(&model, label);
+                let factors = lever([0, 1, 2].map(|k| bolt[k] - x[k]), axis).into_iter().enumerate();
+                let terms = factors.filter(|(_, factor)| *factor != 0.0);
+                terms.map(|(k, factor)| (row(&model, (label, k as u8)), sign * factor)).collect::<Vec<_>>()
+            };
+            [of_node(4, 1.0), of_node(5, -1.0)].concat()
+        };
+        let rows: Rows = bolts.iter().flat_map(|bolt| (0..3).map(|axis| of_bolt(*bolt, axis))).collect();
+        let case = Case::new(model, rows);
+        let reduced = case.reduced(r#"{ name = "a", nodes = [1] }, { name = "b", nodes = [8] }"#, HERTING, "");
+        assert_projected(&case, &reduced);
+        assert_close(&frequencies_hz(&reduced), &elastic_hz(&case, 6, frequencies_hz(&reduced).len()), DENSE);
+        let (_, told) = case.told();
+        assert!(told.contains("9 constraints, 6 dofs follow others"), "{apart:e}: {told}");
+    }
 }
 
 /// Constraints between nodes of a patch follow from it where they are rigid motion; those of a patch with other nodes reach its node.

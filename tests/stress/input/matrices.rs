@@ -69,7 +69,7 @@ fn askew(difference: f64) -> Place {
 fn i_04_asymmetry_by_its_size() {
     let rounding = askew(1e-13);
     assert_done(&rounding, &reduce_chain(&rounding), &[]);
-    assert!(notes_say(&rounding, "stiffness matrix was symmetric to 1.0e-13 only"));
+    assert!(notes_say(&rounding, "stiffness matrix was symmetric to 1.0e-13 of its rows only"));
     let doubtful = askew(1e-9);
     assert_done(&doubtful, &reduce_chain(&doubtful), &["W-UNSYMMETRIC"]);
     let wrong = askew(1e-4);

@@ -1,0 +1,274 @@
+//! Rows along axes of their own, three by three, turned to the axes of the model.
+//!
+//! ```text
+//! T    n × n    orthogonal: u_file = T u; a block of three rows for each node, whose rows are its axes, the identity elsewhere
+//! TᵀAT          a matrix of the model;  Tᵀx a column of displacements or forces, and the coefficients of a row
+//! ```
+
+use rayon::prelude::*;
+
+use super::{RowStorage, SparseMatrix, diagonal, filled};
+
+/// The axes of a node, each by its components along those of the model.
+type Axes = [[f64; 3]; 3];
+
+/// Share of its terms below which a sum is what their rounding left: at most nine terms, each of three factors that are rounded.
+const NOTHING: f64 = 16.0 * f64::EPSILON;
+
+/// Which rows lie along axes of their own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Turning {
+    /// Three rows each, and their axes.
+    blocks: Vec<([u32; 3], Axes)>,
+    /// Block of each row, and which of its three rows it is; none for a row along the axes of the model.
+    places: Vec<Option<(u32, u8)>>,
+    /// What components of the axes may be off by.
+    of_axes: f64,
+}
+
+/// A matrix of the model.
+pub struct Turned {
+    /// TᵀAT, symmetric or skew to the bit where A is.
+    pub matrix: SparseMatrix,
+    /// What became of the roundings of its entries.
+    pub roundings: TurnedRoundings,
+}
+
+/// What turning rows made of the roundings of the entries of a matrix, relative to √(A_ii A_jj) of the turned one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurnedRoundings {
+    /// How many times their own share entries may be off: the rounding of a stiff direction reaches a soft one.
+    pub enlargement: f64,
+    /// The share that the rounding of the axes makes.
+    pub of_axes: f64,
+}
+
+impl Turning {
+    /// Of n rows; each row is in one block at most. Components of the axes may be off by `of_axes`.
+    pub fn new(n: usize, blocks: Vec<([u32; 3], Axes)>, of_axes: f64) -> Self {
+        let mut places = vec![None; n];
+        for ((rows, _), block) in blocks.iter().zip(0u32..) {
+            rows.iter().zip(0u8..).for_each(|(row, at)| places[*row as usize] = Some((block, at)));
+        }
+        Self { blocks, places, of_axes }
+    }
+
+    /// Tᵀx in place of x.
+    ///
+    /// # Panics
+    /// If x has fewer rows than T.
+    pub fn turn(&self, x: &mut [f64]) {
+        for (rows, axes) in &self.blocks {
+            let own = rows.map(|row| x[row as usize]);
+            for (k, row) in rows.iter().enumerate() {
+                x[*row as usize] = (0..3).map(|at| axes[at][k] * own[at]).sum();
+            }
+        }
+    }
+
+    /// The terms of Tᵀg for those of a row g, ascending, without zeros.
+    pub fn turned_terms(&self, terms: &[(u32, f64)]) -> Vec<(u32, f64)> {
+        let mut sums: std::collections::BTreeMap<u32, f64> = std::collections::BTreeMap::new();
+        for (row, value) in terms {
+            self.shares(*row).for_each(|(other, share)| *sums.entry(other).or_default() += share * value);
+        }
+        sums.into_iter().filter(|(_, value)| *value != 0.0).collect()
+    }
+
+    /// TᵀAT for a matrix A of n × n.
+    pub fn turned(&self, matrix: &SparseMatrix) -> Turned {
+        let n = matrix.rows();
+        let rows: Vec<Option<Vec<(u32, f64)>>> =
+            (0..n).into_par_iter().map(|row| self.turned_row(matrix, row)).collect();
+        let length = |row: usize| match &rows[row] {
+            Some(entries) => entries.len(),
+            None => matrix.outer_view(row).map_or(0, |view| view.nnz()),
+        };
+        let lengths: Vec<usize> = (0..n).map(length).collect();
+        let RowStorage { pointers, indices, values } = filled(
+            &lengths,
+            || (),
+            |(), row, indices, values| match &rows[row] {
+                Some(entries) => {
+                    indices.iter_mut().zip(entries).for_each(|(index, (col, _))| *index = *col);
+                    values.iter_mut().zip(entries).for_each(|(value, (_, entry))| *value = *entry);
+                }
+                None => {
+                    let Some(view) = matrix.outer_view(row) else { return };
+                    indices.copy_from_slice(view.indices());
+                    values.copy_from_slice(view.data());
+                }
+            },
+        );
+        let turned = SparseMatrix::new((n, n), pointers, indices, values);
+        let sizes = [diagonal(matrix), diagonal(&turned)];
+        let roundings =
+            TurnedRoundings { enlargement: self.enlargement(&sizes), of_axes: self.share_of_axes(&sizes[1]) };
+        Turned { matrix: turned, roundings }
+    }
+
+    /// The rows that a row of the files is a sum of, and by what factors.
+    fn shares(&self, row: u32) -> impl Iterator<Item = (u32, f64)> {
+        let block = self.places[row as usize].map(|(block, at)| (&self.blocks[block as usize], at as usize));
+        let own = block.is_none().then_some((row, 1.0));
+        own.into_iter().chain(block.into_iter().flat_map(|((rows, axes), at)| rows.iter().copied().zip(axes[at])))
+    }
+
+    /// The rows of the files that move with a row of the model, and by what factors.
+    fn sources(&self, row: u32) -> impl Iterator<Item = (u32, f64)> {
+        let block = self.places[row as usize].map(|(block, at)| (&self.blocks[block as usize], at as usize));
+        let own = block.is_none().then_some((row, 1.0));
+        let of_block =
+            |((rows, axes), at): (&([u32; 3], Axes), usize)| std::array::from_fn::<_, 3, _>(|i| (rows[i], axes[i][at]));
+        own.into_iter().chain(block.into_iter().flat_map(of_block))
+    }
+
+    /// A row of TᵀAT; none where it is that of A.
+    ///
+    /// The entries at (i, j) and (j, i) are sums of the same products. They are taken in an order that does not depend on the side: by the
+    /// two rows of the files that they come from, and a pair of these that comes twice is added up first.
+    fn turned_row(&self, matrix: &SparseMatrix, row: usize) -> Option<Vec<(u32, f64)>> {
+        let is_turned = |row: u32| self.places[row as usize].is_some();
+        let own = matrix.outer_view(row);
+        if !is_turned(row as u32) && !own.iter().flat_map(|view| view.indices()).any(|col| is_turned(*col)) {
+            return None;
+        }
+        let mut terms: Vec<(u32, [u32; 2], f64)> = Vec::new();
+        for (source, factor) in self.sources(row as u32) {
+            for (col, value) in matrix.outer_view(source as usize).iter().flat_map(|view| view.iter()) {
+                let key = [source.min(col as u32), source.max(col as u32)];
+                terms.extend(self.shares(col as u32).map(|(target, share)| (target, key, factor * share * value)));
+            }
+        }
+        terms.sort_unstable_by_key(|(target, key, _)| (*target, *key));
+        let of_target = terms.chunk_by(|a, b| a.0 == b.0);
+        let sums = of_target.map(|terms| {
+            let of_pair = terms.chunk_by(|a, b| a.1 == b.1);
+            let sum: f64 = of_pair.map(|pair| pair.iter().map(|(_, _, value)| value).sum::<f64>()).sum();
+            let size = terms.iter().fold(0.0, |size: f64, (_, _, value)| size.max(value.abs()));
+            (terms[0].0, if terms.len() > 1 && sum.abs() <= NOTHING * size { 0.0 } else { sum })
+        });
+        Some(sums.filter(|(_, sum)| *sum != 0.0).collect())
+    }
+
+    /// The largest (Σ_a |T_ai| √A_aa)² / (TᵀAT)_ii, one at least. With |E_ab| ≤ r √(A_aa A_bb) the sum over a and b at (i, j) is r times the
+    /// product of both sums at most.
+    fn enlargement(&self, [own, turned]: &[Vec<f64>; 2]) -> f64 {
+        let of_row = |row: u32| {
+            let sum: f64 =
+                self.sources(row).map(|(source, share)| share.abs() * own[source as usize].abs().sqrt()).sum();
+            let left = turned[row as usize];
+            if left > 0.0 { sum * sum / left } else { 1.0 }
+        };
+        self.blocks.iter().flat_map(|(rows, _)| *rows).map(of_row).fold(1.0, f64::max)
+    }
+
+    /// Axes whose components are off by δ are turned by up to 2δ about each axis: an entry gets 2δ of those of the two other directions,
+    /// from either side, each of √(A_kk A_jj) at most. That is 4δ (√(A_kk / A_ii) + √(A_ll / A_ii)) of √(A_ii A_jj).
+    fn share_of_axes(&self, turned: &[f64]) -> f64 {
+        let of_block = |(rows, _): &([u32; 3], Axes)| {
+            let sizes = rows.map(|row| turned[row as usize].max(0.0).sqrt());
+            let [least, most] = [f64::min, f64::max].map(|of| sizes.into_iter().reduce(of).unwrap_or_default());
+            if least > 0.0 { 2.0 * most / least } else { 0.0 }
+        };
+        4.0 * self.of_axes * self.blocks.iter().map(of_block).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sparse::{Declared, Triplets};
+
+    /// x along (2, 2, 1), y along (-2, 1, 2), z along (1, -2, 2).
+    const AXES: Axes = {
+        let (a, b) = (2.0 / 3.0, 1.0 / 3.0);
+        [[a, a, b], [-a, b, a], [b, -a, a]]
+    };
+
+    fn matrix(declared: Declared) -> SparseMatrix {
+        let mut triplets = Triplets::default();
+        for row in 0..8u32 {
+            for col in 0..=row {
+                if declared == Declared::Symmetric || col < row {
+                    triplets.push(
+                        row,
+                        col,
+                        f64::from((7 * row + 3 * col) % 11) - 4.7 + f64::from(u8::from(row == col)) * 30.0,
+                    );
+                }
+            }
+        }
+        triplets.assemble(8, declared, "a".as_ref()).expect("a matrix").0
+    }
+
+    fn dense(matrix: &SparseMatrix) -> Vec<Vec<f64>> {
+        let entry = |row, col| matrix.get(row, col).copied().unwrap_or(0.0);
+        (0..matrix.rows()).map(|row| (0..matrix.cols()).map(|col| entry(row, col)).collect()).collect()
+    }
+
+    #[test]
+    fn a_matrix_is_turned_on_both_sides_and_stays_what_it_was_to_the_bit() {
+        let turning = Turning::new(8, vec![([1, 4, 2], AXES)], 0.0);
+        let mut t = vec![vec![0.0; 8]; 8];
+        (0..8).for_each(|row| turning.shares(row as u32).for_each(|(col, share)| t[row][col as usize] = share));
+        for (declared, sign) in [(Declared::Symmetric, 1.0), (Declared::Skew, -1.0)] {
+            let given = matrix(declared);
+            let (a, turned) = (dense(&given), dense(&turning.turned(&given).matrix));
+            for i in 0..8 {
+                for j in 0..8 {
+                    let sum: f64 = (0..8)
+                        .flat_map(|p| (0..8).map(move |q| (p, q)))
+                        .map(|(p, q)| t[p][i] * a[p][q] * t[q][j])
+                        .sum();
+                    // Nine products of numbers up to 40.
+                    assert!((turned[i][j] - sum).abs() < 1e-13, "{i} {j}");
+                    assert_eq!(turned[i][j], sign * turned[j][i], "{i} {j}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_column_and_a_row_turn_as_the_matrix_does() {
+        let turning = Turning::new(5, vec![([0, 2, 3], AXES)], 0.0);
+        let mut x = [3.0, 5.0, 0.0, 0.0, 7.0];
+        turning.turn(&mut x);
+        assert_eq!(x, [2.0, 5.0, 2.0, 1.0, 7.0]);
+        assert_eq!(
+            turning.turned_terms(&[(0, 3.0), (1, 5.0), (4, 7.0)]),
+            [(0, 2.0), (1, 5.0), (2, 2.0), (3, 1.0), (4, 7.0)]
+        );
+        let mut spring = Triplets::default();
+        spring.push(0, 0, 9e9);
+        let spring = spring.assemble(5, Declared::Symmetric, "a".as_ref()).expect("a matrix").0;
+        let turned = turning.turned(&spring);
+        for (row, sum) in [(0, 6e9), (2, 6e9), (3, 3e9)] {
+            // Twelve products of three rounded factors at most.
+            assert!(
+                (turned.matrix.outer_view(row).expect("a row").iter().map(|(col, v)| v * x[col] / 3.0).sum::<f64>()
+                    / sum
+                    - 1.0)
+                    .abs()
+                    < 1e-14
+            );
+        }
+        // The rounding of the spring is a share of itself, and of each of its parts: nothing is enlarged but by rounding.
+        assert!((turned.roundings.enlargement - 1.0).abs() < 1e-14);
+    }
+
+    /// Soft across and stiff along: in the axes of the model both are of one size, turned back the soft one has the rounding of the other.
+    #[test]
+    fn rounding_of_a_stiff_direction_reaches_a_soft_one() {
+        let turning = Turning::new(3, vec![([0, 1, 2], AXES)], 0.0);
+        let mut triplets = Triplets::default();
+        [1e6, 1.0, 1.0].into_iter().zip(0u32..).for_each(|(value, row)| triplets.push(row, row, value));
+        let diagonal = triplets.assemble(3, Declared::Symmetric, "a".as_ref()).expect("a matrix").0;
+        let there = turning.turned(&diagonal);
+        assert!(there.roundings.enlargement < 3.0, "{}", there.roundings.enlargement);
+        let transposed: Axes = std::array::from_fn(|i| std::array::from_fn(|j| AXES[j][i]));
+        let back = Turning::new(3, vec![([0, 1, 2], transposed)], 0.0).turned(&there.matrix);
+        assert_eq!(back.roundings.of_axes, 0.0);
+        assert!(back.roundings.enlargement > 1e5, "{}", back.roundings.enlargement);
+    }
+}
