@@ -726,6 +726,58 @@ pub enum Error {
         /// All rows whose node has no position, in words.
         missing: String,
     },
+    /// Axes of a node or of a coordinate system are none.
+    #[entry(
+        "E-FRAME-AXES",
+        InputData,
+        "give two directions that span a plane, and the third axis right-handed or not at all"
+    )]
+    #[error(
+        "{}:{line}: {found} – expected right-handed axes – correct the directions, or write the matrices along the axes of the model",
+        path.display()
+    )]
+    FrameAxes {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What was found, in words.
+        found: String,
+    },
+    /// A node with axes of its own lacks rows of one of its directions.
+    #[entry(
+        "E-FRAME-ROWS",
+        InputData,
+        "write the matrices without the support that took the row, or along the axes of the model; check that map and axes belong together"
+    )]
+    #[error(
+        "{}: node {node} has axes of its own, and only the rows {found} – expected all three translations, and all three rotations or \
+        none: the others cannot be turned to the axes of the model – write the matrices without the support that took the rest, or \
+        along the axes of the model",
+        path.display()
+    )]
+    FrameRows {
+        /// The file of the axes.
+        path: PathBuf,
+        /// Label of the node.
+        node: i64,
+        /// The rows that are there.
+        found: String,
+    },
+    /// Axes are given for nodes of which none has rows.
+    #[entry("E-FRAME-NODES", InputData, "check that the axes are of this model, and give a dof map")]
+    #[error(
+        "{}: axes of {}, of which {found} – expected nodes of the model – check that the file is of this model, and give a dof map",
+        path.display(), counted(*n_nodes, "node", "nodes")
+    )]
+    FrameNodes {
+        /// The file of the axes.
+        path: PathBuf,
+        /// Nodes in it.
+        n_nodes: usize,
+        /// What was found, in words.
+        found: &'static str,
+    },
     /// Without a dof map the counts do not say what the rows are.
     #[entry("E-MAP-NEEDED", InputData, "give a dof map with `model.dofs` (`reduce --dofs`)")]
     #[error(
@@ -1827,17 +1879,17 @@ pub enum Error {
         incomplete, say which one holds with `model.symmetric` (`reduce --symmetric`)"
     )]
     #[error(
-        "the {matrix} matrix is not symmetric – worst at {place} – found a relative difference of {asymmetry:.1e} – \
-        expected below 1e-6 – take follower forces, gyroscopic and friction terms out and give them as matrices of \
+        "the {matrix} matrix is not symmetric – worst at {place} – found a difference of {asymmetry:.1e} of its rows – \
+        expected below 1e-3, and below 1e-6 of the largest entry – take follower forces, gyroscopic and friction terms out and give them as matrices of \
         their own, [[matrix]] in the job; where the file lacks part of a triangle, take the other one: \
         model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
     )]
     Unsymmetric {
         /// `stiffness` or `mass`.
         matrix: &'static str,
-        /// max |A − Aᵀ| / max |A|.
+        /// The largest |A_ij − A_ji| / √(A_ii A_jj).
         asymmetry: f64,
-        /// Row and column of the largest difference, from one, with their dofs where known.
+        /// Row and column of this difference, from one, with their dofs where known.
         place: String,
         /// Entries below and above the diagonal that have none at their mirror image.
         unpaired: [usize; 2],
@@ -2532,8 +2584,8 @@ pub enum Error {
     #[entry(
         "E-COORD",
         InputData,
-        "check units, axes, local node frames and the order of nodes and rows, first at the nodes named; use the \
-        coordinates of the state that K was made in; or leave the nodes out"
+        "check units, axes and the order of nodes and rows, first at the nodes named; give the axes of nodes that have their own with \
+        `model.frames`; use the coordinates of the state that K was made in; or leave the nodes out"
     )]
     #[error(
         "the coordinates do not belong to the stiffness – {found} – expected below {} – check units, axes and local \

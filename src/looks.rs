@@ -47,7 +47,7 @@ fn certified_pairs(
 
     observer.stage("result");
     let allowance = Allowance::of(resources.allowed(job));
-    let mut modes = input::foreign_modes(&files.shapes, &certification::mode_rows(&partition), &allowance)?;
+    let mut modes = input::foreign_modes(&files.shapes, &certification::mode_rows(&partition, &facts), &allowance)?;
     let left_out = std::mem::take(&mut modes.notes);
     let values = match &files.values {
         Some((unit, source)) => Some(ModeValues::read(*unit, source, modes.columns.len(), &allowance)?),
@@ -76,7 +76,7 @@ fn certified_superelement(
     let (facts, partition) = prepared(&Plan::of(job), resources, observer)?;
 
     observer.stage("result");
-    let rows = certification::mode_rows(&partition);
+    let rows = certification::mode_rows(&partition, &facts);
     let allowance = Allowance::of(resources.allowed(job));
     let given = ForeignSuperelement::read(files, &rows, (job.model.duplicates, &allowance))?;
     let interface = certification::interface(&partition, &given);

@@ -70,7 +70,7 @@ pub fn read_modes(content: &[u8]) {
     let of_node = |node| [Direction::Ux, Direction::Uy, Direction::Uz].map(|direction| Some(Dof { node, direction }));
     let left: Vec<_> = [1, 2].into_iter().flat_map(of_node).enumerate().collect();
     with_file(content, |path| {
-        let rows = ModeRows { n: left.len(), left };
+        let rows = ModeRows { n: left.len(), left, turning: None };
         match foreign_modes(path, &rows, &Allowance::of(Some(ALLOWANCE))) {
             Ok(read) => assert!(read.columns.iter().all(|column| column.iter().all(|value| value.is_finite()))),
             Err(error) => assert!(!error.to_string().is_empty()),

@@ -102,6 +102,9 @@ pub(super) struct ModelFlags {
     /// Table of nodes or mesh
     #[arg(long, value_name = "FILE")]
     pub(super) nodes: Option<PathBuf>,
+    /// Table of the axes of nodes whose rows are along axes of their own: node,x1,x2,x3,y1,y2,y3
+    #[arg(long, value_name = "FILE")]
+    pub(super) frames: Option<PathBuf>,
     /// Format of the files of K and M, where their content leaves several
     #[arg(long, value_name = "FORMAT", value_parser = values::<Layout>())]
     pub(super) layout: Option<Layout>,

@@ -91,6 +91,7 @@ fn override_job(
     job.model.mass = model.mass.or(job.model.mass);
     job.model.dofs = model.dofs.or(job.model.dofs);
     job.model.nodes = model.nodes.or(job.model.nodes);
+    job.model.frames = model.frames.or(job.model.frames);
     job.model.layout = model.layout.or(job.model.layout);
     job.model.symmetric = model.symmetric.or(job.model.symmetric);
     job.model.drop_empty |= model.drop_empty;
@@ -168,6 +169,7 @@ fn one_off_job(model: ModelFlags, reduction: &ReductionFlags, output: OutputFlag
             mass: Some(mass.clone()),
             dofs: model.dofs,
             nodes: model.nodes,
+            frames: model.frames,
             layout: model.layout,
             symmetric: model.symmetric,
             drop_empty: model.drop_empty,

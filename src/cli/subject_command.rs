@@ -32,6 +32,7 @@ impl SubjectCommand {
                 layout: rows.layout,
                 symmetric: rows.symmetric,
                 drop_empty: rows.drop_empty,
+                frames: rows.frames,
                 constraints: rows.constraints,
                 constraints_to_ground: rows.constraints_to_ground.unwrap_or_default(),
                 ..ModelJob::default()

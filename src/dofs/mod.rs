@@ -1,9 +1,11 @@
 //! Degrees of freedom and nodes: what the rows of the matrices stand for, and what they are called in messages.
 
+mod axes;
 mod dof;
 mod file_rows;
 mod nodes;
 
+pub(crate) use axes::{Axes, cross, spanned, unit};
 pub(crate) use dof::gyration;
 pub use dof::{Dof, DofMap};
 pub use file_rows::{FileRows, RowNames};

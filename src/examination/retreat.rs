@@ -55,6 +55,7 @@ pub(super) fn retreat(job: &Job, error: &Error) -> Option<Retreat> {
     // Held dofs are named by nodes, which rows alone do not have.
     let has_labels = next.model.dofs.is_some() || next.model.nodes.is_some();
     if !has_labels {
+        next.model.frames = None;
         next.fixed.retain(|fixed| matches!(fixed.nodes, crate::job::NodeSelection::Rows { .. }));
     }
     Some(Retreat { job: next, how })

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::bulk_lines::{BulkLines, Place};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// How wide the fields of a line are.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -25,6 +25,8 @@ impl Width {
         }
     }
 }
+
+const FORMAT: &str = "Nastran bulk data";
 
 /// The last column of the fields; what follows names the continuation.
 const END: usize = 72;
@@ -139,6 +141,13 @@ fn fields(line: &[u8], width: Width) -> Vec<Vec<u8>> {
     }
     text.resize(END, b' ');
     (0..n).map(|at| text[8 + at * width..8 + (at + 1) * width].trim_ascii().to_vec()).collect()
+}
+
+/// The error of a field.
+pub(super) fn wrong(place: &Place, found: &[u8], expected: &str) -> Error {
+    let found = format!("{:?}", String::from_utf8_lossy(found));
+    let (path, place, expected) = (place.path.to_path_buf(), format!("line {}", place.line), expected.to_owned());
+    Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::{Digits, FurtherMatrix, Input, InputNote, LoadColumn, MatrixInput, ModeColumns, PatchFaces, QuantityRows};
 use crate::error::Warning;
 use crate::job::{Layout, LoadJob};
-use crate::sparse::Triangle;
+use crate::sparse::{Triangle, Turning};
 
 /// What is remembered of the input after its matrices have gone into the model.
 #[derive(Clone, Debug)]
@@ -27,6 +27,8 @@ pub struct InputFacts {
     pub faces: Vec<PatchFaces>,
     /// Remarks that are warnings.
     pub warnings: Vec<Warning>,
+    /// Rows of the files that were along axes of their own, where some were.
+    pub turning: Option<Turning>,
 }
 
 /// What is remembered of one matrix.
@@ -63,6 +65,7 @@ impl InputFacts {
             faces: Vec::new(),
             notes: input.notes.iter().filter(|note| note.warning_code().is_none()).map(ToString::to_string).collect(),
             warnings: input.notes.iter().filter_map(warning).collect(),
+            turning: input.turning.clone(),
         }
     }
 

@@ -49,20 +49,38 @@ pub enum Orientation {
     Square,
 }
 
+/// Which axes the values at a node are along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Along {
+    /// Those of the rows of K and M in their files.
+    Rows,
+    /// Those of the model.
+    Model,
+}
+
 /// A format of modes with their frequencies.
 struct ModeFormat {
     /// Whether a file is one of the format.
     is_one: fn(&ModeSource<'_>, &FileStart<'_>) -> bool,
     read: fn(&ModeSource<'_>) -> Result<ReadModes>,
+    along: Along,
 }
 
 /// The formats, those that know more than shapes first; what none of them takes is a matrix of numbers.
 const FORMATS: [ModeFormat; 5] = [
-    ModeFormat { is_one: |source, start| start.is_hdf5() && source.member.is_none(), read: hdf5_format::foreign_modes },
-    ModeFormat { is_one: |_, start| op4::begins(start), read: op4::modes },
-    ModeFormat { is_one: |_, start| frd_modes::begins(start), read: frd_modes::modes },
-    ModeFormat { is_one: |_, start| npz::begins(start), read: npz::modes },
-    ModeFormat { is_one: |source, start| source.member.is_some() && is_array(&start.head), read: npy_series::modes },
+    ModeFormat {
+        is_one: |source, start| start.is_hdf5() && source.member.is_none(),
+        read: hdf5_format::foreign_modes,
+        along: Along::Rows,
+    },
+    ModeFormat { is_one: |_, start| op4::begins(start), read: op4::modes, along: Along::Rows },
+    ModeFormat { is_one: |_, start| frd_modes::begins(start), read: frd_modes::modes, along: Along::Model },
+    ModeFormat { is_one: |_, start| npz::begins(start), read: npz::modes, along: Along::Rows },
+    ModeFormat {
+        is_one: |source, start| source.member.is_some() && is_array(&start.head),
+        read: npy_series::modes,
+        along: Along::Rows,
+    },
 ];
 
 /// Reads the modes of another program, for matrices of these rows.
@@ -74,14 +92,20 @@ pub fn foreign_modes(path: &Path, rows: &ModeRows, allowance: &Allowance) -> Res
     let (file, member) = split_member(path);
     let source = ModeSource { file, member, rows, allowance };
     let start = FileStart::of(&source.file)?;
-    let (read, digest) = match FORMATS.iter().find(|format| (format.is_one)(&source, &start)) {
+    let format = FORMATS.iter().find(|format| (format.is_one)(&source, &start));
+    let (read, digest) = match format {
         Some(format) => unchanged(&source.file, || Ok(((format.read)(&source)?, digest(&source.file)?)))?,
         None => {
             let ModeColumns { columns, digest } = mode_columns(path, rows.n, allowance)?;
             (ReadModes::of_columns(columns), digest)
         }
     };
-    let ReadModes { columns, values, program, digits, notes } = read;
+    let ReadModes { mut columns, values, program, digits, notes } = read;
+    let rounding = ModeRounding::of(digits.map_or_else(|| digits_of_columns(&columns), Digits::relative));
+    let is_along_rows = format.is_none_or(|format| format.along == Along::Rows);
+    if let Some(turning) = rows.turning.as_ref().filter(|_| is_along_rows) {
+        columns.iter_mut().for_each(|column| turning.turn(column));
+    }
     let values = values.map(|(unit, numbers)| ModeValues::new(unit, numbers));
     let n_modes = columns.len();
     if let Some(values) = values.as_ref().filter(|values| values.numbers.len() != n_modes) {
@@ -89,6 +113,5 @@ pub fn foreign_modes(path: &Path, rows: &ModeRows, allowance: &Allowance) -> Res
     }
     let is_square = start.is_hdf5() && program.is_none() && n_modes == rows.n;
     let orientation = if is_square { Orientation::Square } else { Orientation::Known };
-    let rounding = ModeRounding::of(digits.map_or_else(|| digits_of_columns(&columns), Digits::relative));
     Ok(ForeignModes { rounding, columns, values, program, orientation, notes, digest })
 }

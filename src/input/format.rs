@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::blocks::LastLine;
 use super::faces::CellList;
 use super::file_start::FileStart;
+use super::node_frames::NodeFrames;
 use super::patch::{PatchFaces, Patches};
 use super::row_label::RowLabel;
 use super::{Allowance, MatrixInput, MatrixRole};
@@ -114,8 +115,8 @@ pub(super) struct ReadNodes {
     pub(super) nodes: Nodes,
     /// BLAKE3 of the files that this one refers to, where it does.
     pub(super) data_digest: Option<String>,
-    /// File and line that give nodes local directions, the first of them.
-    pub(super) local_directions: Option<(PathBuf, u64)>,
+    /// The axes of nodes that have their own, as the deck says.
+    pub(super) frames: Option<NodeFrames>,
 }
 
 /// Cells as their format left them.
@@ -127,9 +128,9 @@ pub(super) struct ReadCells {
 }
 
 impl ReadNodes {
-    /// Nodes of a format that knows no local directions.
+    /// Nodes of a format that knows no axes of nodes.
     pub(super) fn along_the_axes(nodes: Nodes, data_digest: Option<String>) -> Self {
-        Self { nodes, data_digest, local_directions: None }
+        Self { nodes, data_digest, frames: None }
     }
 }
 
@@ -181,8 +182,8 @@ pub(super) struct ReadDofs {
     pub(super) n_rows: usize,
     /// How directions are numbered.
     pub(super) base: DirectionBase,
-    /// File and line that give a node directions of its own, the first of them.
-    pub(super) local_directions: Option<(PathBuf, u64)>,
+    /// The axes of nodes along which their rows are, where these are their own; an error where the file does not tell all of them.
+    pub(super) frames: Result<Option<NodeFrames>>,
     /// Labels of rows that no node has, where the file has them.
     pub(super) scalars: Vec<(usize, RowLabel)>,
 }
@@ -190,7 +191,7 @@ pub(super) struct ReadDofs {
 impl ReadDofs {
     /// A map whose directions count from one, without scalar dofs that have a label.
     pub(super) fn new(dofs: DofMap, n_rows: usize) -> Self {
-        Self { dofs, n_rows, base: DirectionBase::One, local_directions: None, scalars: Vec::new() }
+        Self { dofs, n_rows, base: DirectionBase::One, frames: Ok(None), scalars: Vec::new() }
     }
 }
 

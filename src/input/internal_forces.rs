@@ -14,16 +14,15 @@ pub(super) fn read_internal_forces(
     n_rows: usize,
     allowance: &Allowance,
     digests: &mut BTreeMap<&'static str, String>,
-) -> Result<Option<Vec<f64>>> {
+) -> Result<Option<LoadColumn>> {
     let Some(path) = &model.internal_forces else { return Ok(None) };
-    let LoadColumn { values, digest } =
-        load_column(WantedColumn { path, load: "internal forces", column: None, n_rows }, allowance)?;
-    digests.insert("internal_forces", digest);
-    Ok(Some(values))
+    let forces = load_column(WantedColumn { path, load: "internal forces", column: None, n_rows }, allowance)?;
+    digests.insert("internal_forces", forces.digest.clone());
+    Ok(Some(forces))
 }
 
 /// The internal forces of the rows that are left. Rows without stiffness and mass can have none.
-pub(super) fn on_rows(forces: Vec<f64>, rows: &FileRows, n: usize) -> Result<Vec<f64>> {
+pub(super) fn on_rows(LoadColumn { values: forces, .. }: LoadColumn, rows: &FileRows, n: usize) -> Result<Vec<f64>> {
     match forces.iter().enumerate().find(|(row, force)| **force != 0.0 && rows.find(*row).is_none()) {
         Some((row, _)) => Err(Error::PreloadEmptyRow { row: row + 1 }),
         None => Ok((0..n).map(|row| forces[rows.of(row)]).collect()),

@@ -8,10 +8,13 @@ use super::bulk_lines::digest_with_included;
 use super::calculix::rebuilt;
 use super::common_rows::RowLabels;
 use super::format::{DirectionBase, ReadDofs, ReadNodes};
+use super::member::split_member;
+use super::nastran_frames::grid_frames;
+use super::node_frames::NodeFrames;
 use super::{InputNote, dof_map, formats};
 use crate::dofs::{DofMap, Nodes};
 use crate::error::{Error, Result};
-use crate::job::ModelJob;
+use crate::job::{Layout, ModelJob};
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::MAX_ORDER;
 
@@ -22,6 +25,26 @@ pub(super) type Digests = BTreeMap<&'static str, String>;
 pub(super) struct MapAndNodes {
     pub(super) dofs: Option<DofMap>,
     pub(super) nodes: Option<Nodes>,
+    /// Axes that nodes have of their own, as the files say.
+    pub(super) said: SaidFrames,
+}
+
+/// Axes of nodes as files say them that are read for something else.
+pub(super) struct SaidFrames {
+    /// By the file of the dof map: the rows are along them. An error where it does not tell all of them.
+    pub(super) by_map: Result<Option<NodeFrames>>,
+    /// By the deck of the nodes: whether rows are along them depends on who writes the matrices.
+    pub(super) by_nodes: Option<NodeFrames>,
+}
+
+impl SaidFrames {
+    /// These with what the deck of a DMIG says of its own rows, where no map says it.
+    pub(super) fn with_grids_of(self, model: &ModelJob, layout: Option<Layout>) -> Self {
+        match (model.dofs.is_none(), layout) {
+            (true, Some(Layout::Dmig)) => Self { by_map: grid_frames(&split_member(&model.stiffness).0), ..self },
+            _ => self,
+        }
+    }
 }
 
 /// Reads the dof map and the nodes of a model of n rows, and compares them. Where no map is given it is the one of the rows that the
@@ -36,15 +59,25 @@ pub(super) fn map_and_nodes(
     allowance: &Allowance,
     (digests, notes): (&mut Digests, &mut Vec<InputNote>),
 ) -> Result<MapAndNodes> {
-    let nodes = model.nodes.as_deref().map(|path| read_nodes(path, allowance, (digests, notes))).transpose()?;
+    let mut said = SaidFrames { by_map: Ok(None), by_nodes: None };
+    let nodes = match model.nodes.as_deref() {
+        Some(path) => {
+            let (nodes, frames) = read_nodes(path, allowance, digests)?;
+            said.by_nodes = frames;
+            Some(nodes)
+        }
+        None => None,
+    };
     match (model.dofs.as_deref(), nodes, model.nodes.as_deref()) {
         (Some(path), nodes, nodes_path) => {
-            let (dofs, of_map) =
+            let (read, of_map) =
                 unchanged(path, || Ok((read_dofs(path, n, (allowance, notes))?, digest_with_included(path)?)))?;
+            let dofs = read.dofs;
+            said.by_map = read.frames;
             digests.insert("dofs", of_map);
             let Some((nodes, nodes_path)) = nodes.zip(nodes_path) else {
                 dof_map::check_repeated(path, &dofs)?;
-                return Ok(MapAndNodes { dofs: Some(dofs), nodes: None });
+                return Ok(MapAndNodes { dofs: Some(dofs), nodes: None, said });
             };
             let (dofs, nodes) = match rebuilt((path, &dofs), (nodes_path, &nodes), allowance)? {
                 Some(rebuilt) => {
@@ -56,7 +89,7 @@ pub(super) fn map_and_nodes(
             };
             dof_map::check_repeated(path, &dofs)?;
             compare(&dofs, path, (&nodes, nodes_path), notes)?;
-            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes) })
+            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes), said })
         }
         (None, nodes, nodes_path) if named.is_some() => {
             let (path, dofs) = named.unwrap_or((Path::new(""), DofMap::new()));
@@ -64,15 +97,15 @@ pub(super) fn map_and_nodes(
             if let Some((nodes, nodes_path)) = nodes.as_ref().zip(nodes_path) {
                 compare(&dofs, path, (nodes, nodes_path), notes)?;
             }
-            Ok(MapAndNodes { dofs: Some(dofs), nodes })
+            Ok(MapAndNodes { dofs: Some(dofs), nodes, said })
         }
         (None, Some(nodes), Some(path)) => {
             let dofs = dof_map::default_order(&nodes, path, n)?;
             let dofs_per_node = n / nodes.labels.len();
             notes.push(InputNote::DefaultOrder { dofs_per_node, nodes: path.to_owned() });
-            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes) })
+            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes), said })
         }
-        (None, nodes, _) => Ok(MapAndNodes { dofs: None, nodes }),
+        (None, nodes, _) => Ok(MapAndNodes { dofs: None, nodes, said }),
     }
 }
 
@@ -90,21 +123,16 @@ fn compare(dofs: &DofMap, path: &Path, (nodes, nodes_path): (&Nodes, &Path), not
 /// # Errors
 /// A file that cannot be read or whose content is wrong, more data than `allowance` has room for.
 pub fn nodes(path: &Path, allowance: &Allowance) -> Result<Nodes> {
-    read_nodes(path, allowance, (&mut Digests::new(), &mut Vec::new()))
+    read_nodes(path, allowance, &mut Digests::new()).map(|(nodes, _)| nodes)
 }
 
-fn read_nodes(
-    path: &Path,
-    allowance: &Allowance,
-    (digests, notes): (&mut Digests, &mut Vec<InputNote>),
-) -> Result<Nodes> {
-    let (ReadNodes { nodes, data_digest, local_directions }, of_nodes) =
+fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<(Nodes, Option<NodeFrames>)> {
+    let (ReadNodes { nodes, data_digest, frames }, of_nodes) =
         unchanged(path, || Ok((formats::of_nodes(path)?.read(path, allowance)?, digest(path)?)))?;
     digests.extend(data_digest.map(|digest| ("nodes_data", digest)));
-    notes.extend(local_directions.map(|(path, line)| InputNote::Transformed { path, line }));
     digests.insert("nodes", of_nodes);
     refuse_out_of_range(path, &nodes)?;
-    Ok(nodes)
+    Ok((nodes, frames))
 }
 
 /// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.
@@ -135,14 +163,13 @@ pub(super) fn dof_map_for_labels(path: &Path, allowance: &Allowance) -> Result<(
     Ok((dofs, labels))
 }
 
-fn read_dofs(path: &Path, n: usize, (allowance, notes): (&Allowance, &mut Vec<InputNote>)) -> Result<DofMap> {
+fn read_dofs(path: &Path, n: usize, (allowance, notes): (&Allowance, &mut Vec<InputNote>)) -> Result<ReadDofs> {
     let read = formats::of_dof_map(path)?.read(path, n, allowance)?;
     if read.n_rows != n {
         return Err(Error::DofCount { path: path.to_owned(), found: read.n_rows, n });
     }
-    notes.extend(read.local_directions.map(|(path, line)| InputNote::GridDirections { path, line }));
     if read.base == DirectionBase::Zero {
         notes.push(InputNote::DirectionsFromZero { path: path.to_owned() });
     }
-    Ok(read.dofs)
+    Ok(read)
 }

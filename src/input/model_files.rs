@@ -17,6 +17,7 @@ use super::modes_file::{ModeColumns, mode_columns};
 use super::patch::Patches;
 use super::quantity_files::{QuantityRows, quantity_rows};
 use super::superelement_file::refuse_other;
+use super::turned_rows::{turned, turning};
 use super::{Cells, InputNote, MatrixInput, MatrixRole, empty_rows, formats, unit_mass};
 use crate::dofs::{DofMap, FileRows, Nodes};
 use crate::error::{Error, Result, Unnamed};
@@ -24,7 +25,7 @@ use crate::job::{
     ConstraintsToGround, Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob,
 };
 use crate::regular_file::unchanged;
-use crate::sparse::Triangle;
+use crate::sparse::{Triangle, Turning};
 
 /// A finite element model as it was read: matrices of one size, a dof map that fits them, nodes that fit the map.
 #[derive(Clone, Debug)]
@@ -41,12 +42,14 @@ pub struct Input {
     pub nodes: Option<Nodes>,
     /// Which rows of the files are left.
     pub rows: FileRows,
+    /// Rows of the files that were along axes of their own; absent where all were along those of the model.
+    pub turning: Option<Turning>,
     /// Multipoint constraints on the rows that are left; absent where the job names none.
     pub constraints: Option<ConstraintRows>,
     /// Internal forces of a preloaded state, one for each row that is left, in the units of the file; absent where the job names none.
     pub internal_forces: Option<Vec<f64>>,
     /// BLAKE3 digests of the files of the dof map (`dofs`), of what CalculiX wrote next to it (`dofs_data`), of the nodes (`nodes`), of what those refer to (`nodes_data`), of the
-    /// constraints (`constraints`) and of the internal forces (`internal_forces`), lower-case hexadecimal.
+    /// constraints (`constraints`), of the axes of nodes (`frames`) and of the internal forces (`internal_forces`), lower-case hexadecimal.
     pub digests: BTreeMap<&'static str, String>,
     /// What reading needed beyond copying.
     pub notes: Vec<InputNote>,
@@ -80,11 +83,18 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let n = stiffness.matrix.rows();
     let mut digests = BTreeMap::new();
     let named = labels.as_ref().map(|labels| (model.stiffness.as_path(), labels.dof_map().unwrap_or_default()));
-    let MapAndNodes { mut dofs, nodes } = map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
+    let MapAndNodes { mut dofs, nodes, said } =
+        map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
+    let layout = stiffness.layout;
+    let said = said.with_grids_of(model, layout);
+    let turning = turning(model, (dofs.as_ref(), layout), said, allowance, (&mut digests, &mut notes))?;
+    let turning = turning.as_ref();
+    stiffness = turned(stiffness, turning);
     let labels = labels.unwrap_or_else(|| dofs.as_ref().map_or_else(RowLabels::default, RowLabels::of_map));
+    let mass = mass.map(|mass| turned(mass, turning));
     let mut mass = mass.unwrap_or_else(|| unit_mass::of(&stiffness.matrix, dofs.as_deref()));
-    let constraints = read_constraints(model, n, allowance, &mut digests)?;
-    let forces = read_internal_forces(model, n, allowance, &mut digests)?;
+    let constraints = read_constraints(model, n, allowance, &mut digests)?.map(|rows| turned(rows, turning));
+    let forces = read_internal_forces(model, n, allowance, &mut digests)?.map(|forces| turned(forces, turning));
     let mut rows = FileRows::default();
     let tied = constraints.as_ref().map_or_else(Vec::new, ConstraintRows::tied);
     if model.drop_empty
@@ -98,7 +108,8 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let constraints = constraints.map(|constraints| constraints.renumbered(number));
     let internal_forces = forces.map(|forces| on_rows(forces, &rows, stiffness.matrix.rows())).transpose()?;
     refuse_other_superelements(model, (&stiffness, &mass), &digests)?;
-    Ok(Input { stiffness, mass, dofs, labels, nodes, rows, constraints, internal_forces, digests, notes })
+    let turning = turning.cloned();
+    Ok(Input { stiffness, mass, dofs, labels, nodes, rows, turning, constraints, internal_forces, digests, notes })
 }
 
 fn refuse_other_superelements(
@@ -124,7 +135,7 @@ pub fn load_columns(loads: &[LoadJob], input: &Input, allowance: &Allowance) -> 
         LoadPattern::File(path, column) => {
             let read = load_column(WantedColumn { path, load: &load.name, column, n_rows }, allowance)?;
             refuse_other(&input.stiffness, "a load", (path, &read.digest))?;
-            Ok(Some(read))
+            Ok(Some(turned(read, input.turning.as_ref())))
         }
         LoadPattern::Force(..) | LoadPattern::Pressure(..) | LoadPattern::Rotation(_) => Ok(None),
     };
@@ -140,7 +151,9 @@ pub fn expansion_columns(
     input: &Input,
     allowance: &Allowance,
 ) -> Result<Option<ModeColumns>> {
-    reduction.modes_file().map(|path| mode_columns(path, input.n_file_rows(), allowance)).transpose()
+    let read = |path| mode_columns(path, input.n_file_rows(), allowance);
+    let columns = reduction.modes_file().map(read).transpose()?;
+    Ok(columns.map(|columns| turned(columns, input.turning.as_ref())))
 }
 
 /// The further matrices of a job, for rows and columns of K and M as they are in their files.
@@ -152,14 +165,14 @@ pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Resu
     let (n_rows, stiffness) = (input.n_file_rows(), &input.stiffness);
     let read = |matrix: &MatrixJob| {
         let read = input.labels.placed(read_matrix(&further_source(matrix, allowance))?)?;
-        let (input, _) = take_notes(read, &mut Vec::new());
-        refuse_duplicates(&input, job.model.duplicates)?;
-        let n = input.matrix.rows();
+        let (read, _) = take_notes(read, &mut Vec::new());
+        refuse_duplicates(&read, job.model.duplicates)?;
+        let n = read.matrix.rows();
         if n != n_rows {
-            return Err(Error::MatrixRows { path: input.path, matrix: matrix.name.clone(), found: n, n: n_rows });
+            return Err(Error::MatrixRows { path: read.path, matrix: matrix.name.clone(), found: n, n: n_rows });
         }
-        refuse_other(stiffness, "a further matrix", (&input.path, &input.digest))?;
-        FurtherMatrix::checked(matrix, input)
+        refuse_other(stiffness, "a further matrix", (&read.path, &read.digest))?;
+        Ok(turned(FurtherMatrix::checked(matrix, read)?, input.turning.as_ref()))
     };
     job.matrices.iter().map(read).collect()
 }
@@ -178,7 +191,8 @@ pub fn job_quantities(
     input: &Input,
     allowance: &Allowance,
 ) -> Result<Option<QuantityRows>> {
-    job.map(|job| quantity_rows(job, input.n_file_rows(), allowance)).transpose()
+    let rows = job.map(|job| quantity_rows(job, input.n_file_rows(), allowance)).transpose()?;
+    Ok(rows.map(|rows| turned(rows, input.turning.as_ref())))
 }
 
 /// Starts the HDF5 library. A failure after that is the fault of a file.

@@ -20,6 +20,7 @@ pub fn files(model: &ModelJob) -> Vec<(&'static str, PathBuf)> {
     let mut files = vec![("the stiffness", file_of(&model.stiffness))];
     files.extend(model.mass.as_deref().map(|path| ("the mass", file_of(path))));
     files.extend(model.dofs.clone().map(|path| ("the dof map", path)));
+    files.extend(model.frames.clone().map(|path| ("the axes of nodes", path)));
     files.extend(model.constraints.clone().map(|path| ("the constraints", path)));
     let decks = std::iter::once(&model.stiffness).chain(&model.mass).chain(&model.dofs);
     let included = decks.flat_map(|path| included_files(&file_of(path)));

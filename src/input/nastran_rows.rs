@@ -2,19 +2,18 @@
 //! order of their labels, six for a grid point and one for a scalar point, which is the g-set.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::allowance::Allowance;
-use super::bulk_cards::Cards;
-use super::bulk_lines::Place;
+use super::bulk_cards::{Cards, wrong};
 use super::bulk_start::is_bulk;
 use super::file_start::FileStart;
 use super::format::{DofMapFormat, Format, ReadDofs, Sureness};
 use super::fortran::whole;
+use super::nastran_frames::grid_frames;
 use super::row_label::RowLabel;
 use crate::error::{Error, Result};
 
-const FORMAT: &str = "Nastran bulk data";
 /// Directions of a grid point.
 const DIRECTIONS: std::ops::RangeInclusive<u8> = 1..=6;
 /// More scalar points than one range of a real model has.
@@ -43,30 +42,8 @@ impl DofMapFormat for NastranRows {
         let labels = &labels[..n.min(n_rows)];
         let dofs = labels.iter().map(|label| label.dof()).collect();
         let scalars = labels.iter().copied().enumerate().filter(|(_, label)| label.dof().is_none()).collect();
-        Ok(ReadDofs { scalars, local_directions: local_directions(path)?, ..ReadDofs::new(dofs, n_rows) })
+        Ok(ReadDofs { scalars, frames: grid_frames(path), ..ReadDofs::new(dofs, n_rows) })
     }
-}
-
-/// The line of the first grid point whose displacements are in a coordinate system of its own, or of the GRDSET that says so for all.
-fn local_directions(path: &Path) -> Result<Option<(PathBuf, u64)>> {
-    /// Where CD stands behind the name of either entry.
-    const CD: usize = 5;
-    for name in ["GRDSET", "GRID"] {
-        let mut cards = Cards::open(path, name)?;
-        while let Some(card) = cards.advance()? {
-            // A point in a fluid has −1.
-            if card.fields.get(CD).is_some_and(|field| !matches!(field.as_slice(), b"" | b"0" | b"-1")) {
-                return Ok(Some((card.place.path.to_path_buf(), card.place.line)));
-            }
-        }
-    }
-    Ok(None)
-}
-
-fn wrong(place: &Place, found: &[u8], expected: &str) -> Error {
-    let found = format!("{:?}", String::from_utf8_lossy(found));
-    let (path, place, expected) = (place.path.to_path_buf(), format!("line {}", place.line), expected.to_owned());
-    Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
 }
 
 /// Pairs of a label and its components, in their order.

@@ -111,12 +111,12 @@ pub enum InputNote {
         /// The line of `*TRANSFORM`, from 1.
         line: u64,
     },
-    /// Bulk data of Nastran give a grid point directions of its own.
-    GridDirections {
-        /// The file of the dof map.
+    /// Rows of nodes along axes of their own were turned to those of the model.
+    Turned {
+        /// The file that gives the axes.
         path: PathBuf,
-        /// The line of the grid point, from 1.
-        line: u64,
+        /// Nodes whose rows were turned.
+        n_nodes: usize,
     },
     /// Nodes of shells or beams that CalculiX made into solids have got their nodes back.
     Expanded {
@@ -154,7 +154,7 @@ impl InputNote {
     pub fn warning_code(&self) -> Option<&'static str> {
         match self {
             Self::LastRowEmpty { .. } => Some("W-INDEX-BASE"),
-            Self::Transformed { .. } | Self::GridDirections { .. } => Some("W-LOCAL-DIRECTIONS"),
+            Self::Transformed { .. } => Some("W-LOCAL-DIRECTIONS"),
             _ => None,
         }
     }
@@ -239,14 +239,14 @@ impl fmt::Display for InputNote {
             Self::Transformed { path, line } => write!(
                 f,
                 "{}:{line}: *TRANSFORM gives nodes local directions, but rows are taken to be along the global axes, as CalculiX \
-                 writes them; where Abaqus writes the matrices, take it out of that deck",
+                 writes them; where Abaqus writes the matrices, give the axes of these nodes with `model.frames`",
                 file_name(path)
             ),
-            Self::GridDirections { path, line } => write!(
+            Self::Turned { path, n_nodes } => write!(
                 f,
-                "{}:{line}: a grid point has its displacements in a coordinate system of its own (CD), but rows are taken to be \
-                 along the basic axes; write the matrices from a deck without CD",
-                file_name(path)
+                "{}: {} along axes of their own; they are turned to the axes of the model, and what the tool says of them is along these",
+                file_name(path),
+                counted(*n_nodes, "node has rows", "nodes have rows")
             ),
             Self::Expanded { path, positions, n_nodes, n_made } => write!(
                 f,

@@ -49,6 +49,7 @@ fn files_by_role(job: &Job) -> BTreeMap<String, PathBuf> {
         ("mass", model.mass.as_deref()),
         ("dofs", model.dofs.as_deref()),
         ("nodes", model.nodes.as_deref()),
+        ("frames", model.frames.as_deref()),
         ("constraints", model.constraints.as_deref()),
         ("internal_forces", model.internal_forces.as_deref()),
         ("modes", job.reduction.modes_file()),

@@ -147,6 +147,7 @@ impl Job {
             ("model.mass", model.mass.as_mut()),
             ("model.dofs", model.dofs.as_mut()),
             ("model.nodes", model.nodes.as_mut()),
+            ("model.frames", model.frames.as_mut()),
             ("model.constraints", model.constraints.as_mut()),
             ("model.internal_forces", model.internal_forces.as_mut()),
             ("reduction.modes.file", modes),

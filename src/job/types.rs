@@ -110,6 +110,12 @@ pub struct ModelJob {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-role" = "place-of-one"))]
     pub nodes: Option<PathBuf>,
+    /// File of the axes of nodes whose rows are along axes of their own: a table of the columns node, x1, x2, x3 for the direction of
+    /// their x, and y1, y2, y3 for y. Results are along the axes of the model.
+    #[schemars(length(min = 1))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-role" = "place-of-one"))]
+    pub frames: Option<PathBuf>,
     /// The format of the files of K and M, where their content leaves several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<Layout>,

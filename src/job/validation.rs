@@ -111,6 +111,7 @@ fn model(job: &Job) -> Result<()> {
         ("model.mass", model.mass.as_ref()),
         ("model.dofs", model.dofs.as_ref()),
         ("model.nodes", model.nodes.as_ref()),
+        ("model.frames", model.frames.as_ref()),
         ("model.constraints", model.constraints.as_ref()),
         ("model.internal_forces", model.internal_forces.as_ref()),
     ];

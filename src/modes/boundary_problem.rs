@@ -309,6 +309,7 @@ mod tests {
             rows: Default::default(),
             constraints: None,
             internal_forces: None,
+            turning: None,
             digests: Default::default(),
             notes: Vec::new(),
         };

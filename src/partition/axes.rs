@@ -1,6 +1,7 @@
 //! The axes of an interface node: a label for clients, on which no matrix depends.
 
 use super::fitted;
+use crate::dofs::spanned;
 use crate::error::{Error, Result, Selector};
 use crate::job::{Axes, AxesGiven, InterfaceJob};
 
@@ -9,8 +10,6 @@ pub type Frame = [[f64; 3]; 3];
 
 /// The axes of the model.
 pub(crate) const OF_THE_MODEL: Frame = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// Sine of the angle between two directions below which they are one: coordinates of six digits tell no less.
-const PARALLEL: f64 = 1e-6;
 
 /// The axes of the nodes of an interface, which are at `points`; none where they are those of the model.
 ///
@@ -57,25 +56,9 @@ fn along(z: [f64; 3]) -> Option<Frame> {
 
 /// z, and the part of x that is perpendicular to it.
 fn right_handed(z: [f64; 3], x: [f64; 3]) -> Option<Frame> {
-    let (z, x) = (unit(z), unit(x));
-    let part: f64 = (0..3).map(|i| x[i] * z[i]).sum();
-    let across: [f64; 3] = std::array::from_fn(|i| x[i] - part * z[i]);
-    let size = across.iter().map(|value| value * value).sum::<f64>().sqrt();
-    if size.is_nan() || size <= PARALLEL {
-        return None;
-    }
-    let x = unit(across);
-    let y = [z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]];
+    let [z, x, y] = spanned(z, x)?;
     // No negative zeros: axes that are written out look as they are meant.
     Some(std::array::from_fn(|i| [x[i] + 0.0, y[i] + 0.0, z[i] + 0.0]))
-}
-
-/// A vector of length one, whatever the size of its components.
-fn unit(vector: [f64; 3]) -> [f64; 3] {
-    let largest = vector.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-    let scaled = vector.map(|value| value / largest);
-    let length = scaled.iter().map(|value| value * value).sum::<f64>().sqrt();
-    scaled.map(|value| value / length)
 }
 
 #[cfg(test)]

@@ -27,6 +27,8 @@ pub(crate) fn file(role: &str) -> &str {
         "dofs" => "dof map",
         "dofs_data" => "nodes made of shells and beams",
         "nodes_data" => "data of nodes",
+        "frames" => "axes of nodes",
+        "internal_forces" => "internal forces",
         "quantity_names" => "names of quantities",
         other => other,
     }

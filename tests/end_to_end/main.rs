@@ -11,6 +11,7 @@ mod links;
 mod macneal;
 mod methods;
 mod misleading;
+mod node_frames;
 mod outputs;
 mod penalties;
 mod recovery;

@@ -40,6 +40,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         rows: Default::default(),
         constraints: None,
         internal_forces: None,
+        turning: None,
         digests: Default::default(),
         notes: Vec::new(),
     };

@@ -1,12 +1,13 @@
 //! Nodes, cells and groups of a mesh as the reader of a format leaves them.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::dofs::Nodes;
 use crate::error::Result;
 use crate::input::Allowance;
 use crate::input::faces::{Cell, Gathered};
+use crate::input::node_frames::NodeFrames;
 use crate::input::patch::{PatchFaces, Patches};
 
 /// A mesh as the reader of its format leaves it.
@@ -20,8 +21,8 @@ pub(in crate::input) struct CellMesh {
     pub(in crate::input) unread: Option<String>,
     /// BLAKE3 of the files that this one refers to, where it does.
     pub(in crate::input) data_digest: Option<String>,
-    /// File and line that give nodes local directions, the first of them.
-    pub(in crate::input) local_directions: Option<(PathBuf, u64)>,
+    /// The axes of nodes that have their own.
+    pub(in crate::input) frames: Option<NodeFrames>,
 }
 
 /// Cells of one kind.

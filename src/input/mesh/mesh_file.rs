@@ -54,8 +54,8 @@ impl Format for MeshFile {
 
 impl NodeFormat for MeshFile {
     fn read(&self, path: &Path, allowance: &Allowance) -> Result<ReadNodes> {
-        let CellMesh { nodes, data_digest, local_directions, .. } = (self.read)(path, allowance)?;
-        Ok(ReadNodes { nodes, data_digest, local_directions })
+        let CellMesh { nodes, data_digest, frames, .. } = (self.read)(path, allowance)?;
+        Ok(ReadNodes { nodes, data_digest, frames })
     }
 
     fn referenced_files(&self, path: &Path) -> Vec<PathBuf> {

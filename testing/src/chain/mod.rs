@@ -53,6 +53,7 @@ pub fn input(model: &models::Model) -> Input {
         rows: Default::default(),
         constraints: None,
         internal_forces: None,
+        turning: None,
         digests: Default::default(),
         notes: Vec::new(),
     }

@@ -157,7 +157,7 @@ fn read(path: &Path) -> Result<ForeignModes> {
     let dof = |node, direction| Some(Dof { node, direction });
     let [ux, uy, uz] = [Direction::Ux, Direction::Uy, Direction::Uz];
     let left = [dof(7, ux), dof(7, uy), dof(4, uz), dof(4, ux), dof(4, uy)].into_iter().enumerate().collect();
-    foreign_modes(path, &ModeRows { n: 5, left }, &Allowance::of(None))
+    foreign_modes(path, &ModeRows { n: 5, left, turning: None }, &Allowance::of(None))
 }
 
 fn read_text(text: &[u8]) -> Result<ForeignModes> {
@@ -273,7 +273,7 @@ fn rows_that_are_no_displacements_are_refused() {
         (None, "row 2, which no node has"),
     ] {
         let first = Some(Dof { node: 3, direction: Direction::Ux });
-        let rows = ModeRows { n: 2, left: vec![(0, first), (1, dof)] };
+        let rows = ModeRows { n: 2, left: vec![(0, first), (1, dof)], turning: None };
         let error = foreign_modes(&place.path("job.frd"), &rows, &Allowance::of(None)).expect_err(told);
         assert!(error.to_string().contains(told), "{error}");
     }

@@ -220,28 +220,3 @@ fn packed_files_are_what_they_hold() {
         }
     }
 }
-
-/// Nastran writes the rows of a grid point along the axes of the coordinate system that CD names.
-#[test]
-fn local_directions_of_grid_points_are_told() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("rows.bdf");
-    let warnings = |bulk: &str| -> Vec<String> {
-        std::fs::write(&path, format!("BEGIN BULK\n{bulk}\nENDDATA\n")).expect("written");
-        let job = ModelJob { dofs: Some(path.clone()), ..job(&fixture("k.mtx"), &fixture("m.mtx")) };
-        let input = read(&job).expect("a model of one grid point");
-        let notes = input.notes.iter().filter(|note| note.warning_code() == Some("W-LOCAL-DIRECTIONS"));
-        notes.map(ToString::to_string).collect()
-    };
-    for (bulk, line) in [
-        ("GRID,1,,0.,0.,0.,7", 2),
-        ("GRDSET,,,,,,7\nGRID,1,,0.,0.,0.", 2),
-        ("$ a comment\nGRID           1              0.      0.      0.       7", 3),
-    ] {
-        let found = warnings(bulk);
-        assert!(found.len() == 1 && found[0].starts_with(&format!("rows.bdf:{line}: ")), "{bulk}: {found:?}");
-    }
-    for bulk in ["GRID,1,,0.,0.,0.", "GRID,1,5,0.,0.,0.,0", "GRID,1,,0.,0.,0.,-1"] {
-        assert_eq!(warnings(bulk), Vec::<String>::new(), "{bulk}");
-    }
-}

@@ -117,7 +117,7 @@ fn local_directions_of_a_deck_are_told() {
     let warnings = told(with(deck).expect("a model"));
     let place = format!("block.inp:{}: *TRANSFORM", text.lines().count() + 1);
     assert!(warnings.len() == 1 && warnings[0].starts_with(&place), "{warnings:?}");
-    assert!(warnings[0].contains("take it out of that deck"), "{warnings:?}");
+    assert!(warnings[0].contains("give the axes of these nodes with `model.frames`"), "{warnings:?}");
     assert_eq!(told(with(fixture("calculix/block.inp")).expect("a model")), Vec::<String>::new());
 }
 

@@ -3,9 +3,10 @@
 use std::collections::{HashMap, HashSet};
 
 use super::keyword::Keyword;
-use super::lines::{DeckLines, Place};
+use super::lines::DeckLines;
 use super::scope::{Added, Face, Scope, SetLine};
 use super::sections::{SetKind, data_line, member, numbers, wrong_line};
+use super::transforms::Transform;
 use crate::error::Result;
 use crate::input::allowance::Claim;
 use crate::input::banner::excerpt;
@@ -20,8 +21,8 @@ pub(super) struct Scopes {
     pub(super) outer: Scope,
     /// Instances in the order of the deck.
     pub(super) instances: Vec<Scope>,
-    /// The first `*TRANSFORM`.
-    pub(super) transform: Option<Place>,
+    /// Each `*TRANSFORM`.
+    pub(super) transforms: Vec<Transform>,
     /// Parts by their names in capitals.
     parts: HashMap<String, Scope>,
     inside: Inside,
@@ -52,6 +53,12 @@ impl Scopes {
             Inside::Part(name) => self.parts.entry(name.clone()).or_default(),
             Inside::Instance => self.instances.last_mut().unwrap_or(&mut self.outer),
         })
+    }
+
+    /// Takes the data of a `*TRANSFORM`.
+    pub(super) fn transform(&mut self, lines: &mut DeckLines, keyword: &Keyword) -> Result<()> {
+        self.transforms.push(Transform::read(lines, keyword)?);
+        Ok(())
     }
 
     /// Hands lines of the assembly that name labels or sets of an instance down to that instance: `Part-1.HUB`, `Part-1.17`, or a set that

@@ -12,6 +12,7 @@ mod resolved;
 mod scope;
 mod sections;
 mod surfaces;
+mod transforms;
 
 pub(super) use lines::{digest_of_included, included_files};
 pub(in crate::input) use read::n_incompatible;

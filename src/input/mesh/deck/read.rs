@@ -9,6 +9,7 @@ use super::lines::{DeckLines, included_by, is_keyword};
 use super::resolved::Resolved;
 use super::scope::{NodeList, Scope};
 use super::sections::{self, SetKind};
+use super::transforms;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
 use crate::input::allowance::Claim;
@@ -38,7 +39,8 @@ pub(in crate::input::mesh) fn read(path: &Path, allowance: &Allowance) -> Result
     }
     let mut mesh = merged(&lines, &scopes, &claim)?;
     mesh.data_digest = lines.digest_of_included();
-    mesh.local_directions = scopes.transform.map(|place| lines.at(place));
+    let nodes = Some(&mesh.nodes).filter(|_| scopes.instances.is_empty());
+    mesh.frames = transforms::frames(&lines, &scopes.transforms, nodes)?;
     Ok(mesh)
 }
 
@@ -76,10 +78,7 @@ fn section(lines: &mut DeckLines, keyword: &Keyword, scopes: &mut Scopes, claim:
         "SURFACE" => sections::surface(lines, keyword, scopes.of(keyword, lines)?, claim),
         "PART" => scopes.start_part(keyword, lines),
         "INSTANCE" => scopes.start_instance(lines, keyword, claim),
-        "TRANSFORM" => {
-            scopes.transform.get_or_insert(lines.place());
-            Ok(())
-        }
+        "TRANSFORM" => scopes.transform(lines, keyword),
         "ENDPART" | "ENDINSTANCE" => {
             scopes.end();
             Ok(())

@@ -1,0 +1,198 @@
+//! The axes of grid points of Nastran that have their displacements in a coordinate system of their own: CD of GRID, and the systems.
+//!
+//! ```text
+//! CORD2R, C, S    system, reference system, origin A, B on z, C in the half plane of x and z
+//! CORD1R, C, S    the same by three grid points, up to two systems in an entry
+//! GRID            grid point, CP, position in CP, CD; GRDSET has CP and CD for those that leave theirs out
+//! ```
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use super::bulk_cards::{Card, Cards, wrong};
+use super::bulk_lines::Place;
+use super::fortran::{real, whole};
+use super::local_system::{LocalSystem, SystemKind};
+use super::node_frames::NodeFrames;
+use crate::dofs::cross;
+use crate::error::{Error, Result};
+
+/// Fields of GRID and GRDSET behind their names.
+const CP: usize = 1;
+const POSITION: usize = 2;
+const CD: usize = 5;
+/// CD of a point in a fluid, which has no displacements.
+const FLUID: i64 = -1;
+/// Systems that refer to each other, one to the next.
+const MAX_CHAIN: usize = 64;
+
+/// The axes of all grid points whose displacements are not along those of the basic system; none where there are none.
+///
+/// # Errors
+/// Entries that are not what they should be, systems that are not there or refer to themselves, a file that cannot be read.
+pub(super) fn grid_frames(path: &Path) -> Result<Option<NodeFrames>> {
+    let grids = grids(path)?;
+    let turned: Vec<(i64, &Grid)> =
+        grids.iter().filter(|(_, grid)| !matches!(grid.cd, 0 | FLUID)).map(|(label, grid)| (*label, grid)).collect();
+    let Some((_, first)) = turned.iter().min_by_key(|(_, grid)| grid.place.line) else { return Ok(None) };
+    let place = (first.place.path.to_path_buf(), first.place.line);
+    let systems = Systems { defined: systems(path)?, grids: &grids, open: RefCell::default() };
+    let mut axes = BTreeMap::new();
+    for (label, grid) in turned {
+        let system = systems.system(grid.cd, &grid.place)?;
+        axes.insert(label, system.axes_at(systems.position(label, &grid.place)?));
+    }
+    Ok(Some(NodeFrames { axes, of_axes: 0.0, place }))
+}
+
+/// A grid point.
+struct Grid {
+    cp: i64,
+    position: [f64; 3],
+    cd: i64,
+    place: Place,
+}
+
+/// How a system is defined.
+enum Defined {
+    /// In another system, by three points.
+    ByPoints(i64, [[f64; 3]; 3]),
+    /// By three grid points.
+    ByGrids([i64; 3]),
+}
+
+struct Definition {
+    kind: SystemKind,
+    defined: Defined,
+    place: Place,
+}
+
+fn field(card: &Card, at: usize) -> &[u8] {
+    card.fields.get(at).map_or(&b""[..], Vec::as_slice)
+}
+
+/// A whole number, or what stands for it where the field is blank.
+fn number(card: &Card, at: usize, blank: Option<i64>, expected: &str) -> Result<i64> {
+    let text = field(card, at);
+    let value = if text.is_empty() { blank } else { whole(text) };
+    value.ok_or_else(|| wrong(&card.place, text, expected))
+}
+
+fn point(card: &Card, first: usize) -> Result<[f64; 3]> {
+    let mut point = [0.0; 3];
+    for (axis, value) in point.iter_mut().enumerate() {
+        let text = field(card, first + axis);
+        if !text.is_empty() {
+            *value =
+                real(text).filter(|value| value.is_finite()).ok_or_else(|| wrong(&card.place, text, "a coordinate"))?;
+        }
+    }
+    Ok(point)
+}
+
+fn grids(path: &Path) -> Result<BTreeMap<i64, Grid>> {
+    let (mut cp, mut cd) = (0, 0);
+    let mut cards = Cards::open(path, "GRDSET")?;
+    while let Some(card) = cards.advance()? {
+        cp = number(&card, CP, Some(0), "a coordinate system (CP)")?;
+        cd = number(&card, CD, Some(0), "a coordinate system (CD)")?;
+    }
+    let mut grids = BTreeMap::new();
+    let mut cards = Cards::open(path, "GRID")?;
+    while let Some(card) = cards.advance()? {
+        let label = number(&card, 0, None, "the label of a grid point")?;
+        let (cp, cd) = (
+            number(&card, CP, Some(cp), "a coordinate system (CP)")?,
+            number(&card, CD, Some(cd), "a coordinate system (CD)")?,
+        );
+        // Only a point whose system matters needs a position that can be read.
+        let position =
+            if matches!(cd, 0 | FLUID) { point(&card, POSITION).unwrap_or_default() } else { point(&card, POSITION)? };
+        grids.insert(label, Grid { cp, position, cd, place: card.place });
+    }
+    Ok(grids)
+}
+
+fn systems(path: &Path) -> Result<BTreeMap<i64, Definition>> {
+    let mut systems = BTreeMap::new();
+    for (name, kind) in
+        [("CORD2R", SystemKind::Rectangular), ("CORD2C", SystemKind::Cylindrical), ("CORD2S", SystemKind::Spherical)]
+    {
+        let mut cards = Cards::open(path, name)?;
+        while let Some(card) = cards.advance()? {
+            let label = number(&card, 0, None, "the label of a coordinate system")?;
+            let reference = number(&card, 1, Some(0), "a reference coordinate system (RID)")?;
+            let defined = Defined::ByPoints(reference, [point(&card, 2)?, point(&card, 5)?, point(&card, 8)?]);
+            systems.insert(label, Definition { kind, defined, place: card.place });
+        }
+    }
+    for (name, kind) in
+        [("CORD1R", SystemKind::Rectangular), ("CORD1C", SystemKind::Cylindrical), ("CORD1S", SystemKind::Spherical)]
+    {
+        let mut cards = Cards::open(path, name)?;
+        while let Some(card) = cards.advance()? {
+            for first in [0, 4].into_iter().filter(|first| !field(&card, *first).is_empty()) {
+                let label = number(&card, first, None, "the label of a coordinate system")?;
+                let grid = |at: usize| number(&card, first + at, None, "a grid point");
+                let defined = Defined::ByGrids([grid(1)?, grid(2)?, grid(3)?]);
+                systems.insert(label, Definition { kind, defined, place: card.place.clone() });
+            }
+        }
+    }
+    Ok(systems)
+}
+
+/// Coordinate systems and what they are defined by.
+struct Systems<'a> {
+    defined: BTreeMap<i64, Definition>,
+    grids: &'a BTreeMap<i64, Grid>,
+    /// Systems that are being worked out, one for the next.
+    open: RefCell<BTreeSet<i64>>,
+}
+
+impl Systems<'_> {
+    /// A system in the basic one; 0 is the basic one. `place` is that of the entry that refers to it.
+    fn system(&self, label: i64, place: &Place) -> Result<LocalSystem> {
+        if label == 0 {
+            return Ok(LocalSystem::of_the_model());
+        }
+        let Some(Definition { kind, defined, place: own }) = self.defined.get(&label) else {
+            return Err(wrong(
+                place,
+                label.to_string().as_bytes(),
+                "a coordinate system that CORD1 or CORD2 entries of the deck define, or the axes of nodes in `model.frames`",
+            ));
+        };
+        let is_new = self.open.borrow_mut().insert(label);
+        if !is_new || self.open.borrow().len() > MAX_CHAIN {
+            return Err(wrong(own, label.to_string().as_bytes(), "a coordinate system that does not refer to itself"));
+        }
+        let [a, b, c] = match defined {
+            Defined::ByPoints(reference, points) => {
+                let reference = self.system(*reference, own)?;
+                points.map(|point| reference.point(point))
+            }
+            Defined::ByGrids(grids) => {
+                [self.position(grids[0], own)?, self.position(grids[1], own)?, self.position(grids[2], own)?]
+            }
+        };
+        self.open.borrow_mut().remove(&label);
+        let between = |from: [f64; 3], to: [f64; 3]| std::array::from_fn(|i| to[i] - from[i]);
+        let (z, xz): ([f64; 3], [f64; 3]) = (between(a, b), between(a, c));
+        // y is across z and what lies in the plane of x and z.
+        LocalSystem::new(*kind, a, cross(cross(z, xz), z), cross(z, xz)).ok_or_else(|| Error::FrameAxes {
+            path: own.path.to_path_buf(),
+            line: own.line,
+            found: format!("coordinate system {label} by the points {a:?}, {b:?} and {c:?}, which are on one line"),
+        })
+    }
+
+    /// Where a grid point is in the basic system.
+    fn position(&self, label: i64, place: &Place) -> Result<[f64; 3]> {
+        let Some(grid) = self.grids.get(&label) else {
+            return Err(wrong(place, label.to_string().as_bytes(), "a grid point of the deck"));
+        };
+        Ok(self.system(grid.cp, &grid.place)?.point(grid.position))
+    }
+}

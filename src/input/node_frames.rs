@@ -1,0 +1,141 @@
+//! Nodes whose displacements are along axes of their own: a table, or what decks say.
+//!
+//! ```text
+//! node,x1,x2,x3,y1,y2,y3    x along one direction, y along what another leaves across it; directions have any length
+//! ```
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::allowance::Allowance;
+use super::decimal::Decimal;
+use super::table::{Row, Table, is_node_column, open_first_line};
+use crate::dofs::{Axes, DofMap, spanned};
+use crate::error::{Error, Result};
+use crate::sparse::Turning;
+
+const EXPECTED: &str = "a header with the columns node, x1, x2, x3, y1, y2, y3";
+const NAMES: [&str; 9] = ["x1", "x2", "x3", "y1", "y2", "y3", "z1", "z2", "z3"];
+/// Bytes of a node and its axes.
+const NODE: u64 = 128;
+/// Rows after which their memory is claimed.
+const ROWS_PER_CLAIM: usize = 1 << 8;
+/// How far a third axis may be from the one that the others make: what axes of four digits leave.
+const THIRD: f64 = 1e-3;
+/// How far a length may be from one for a direction to be that of an axis with all its digits.
+const WHOLE: f64 = 1e-14;
+/// Decimals from which a direction of about unit length is an axis that was rounded.
+const MIN_DECIMALS: i32 = 3;
+
+/// The axes of nodes, and where they are from.
+#[derive(Clone, Debug)]
+pub(super) struct NodeFrames {
+    /// Axes of each node that has its own.
+    pub(super) axes: BTreeMap<i64, Axes>,
+    /// What their components may be off by.
+    pub(super) of_axes: f64,
+    /// File and line of the first.
+    pub(super) place: (PathBuf, u64),
+}
+
+impl NodeFrames {
+    /// The rows that they turn, and at how many nodes.
+    ///
+    /// # Errors
+    /// [`Error::FrameRows`] where a node lacks rows of one of its directions.
+    pub(super) fn turning(&self, dofs: &DofMap) -> Result<(Turning, usize)> {
+        let mut of_node: BTreeMap<i64, [Option<u32>; 6]> = BTreeMap::new();
+        for (dof, row) in dofs.iter().zip(0u32..) {
+            if let Some(dof) = dof.filter(|dof| self.axes.contains_key(&dof.node)) {
+                of_node.entry(dof.node).or_default()[dof.direction as usize] = Some(row);
+            }
+        }
+        let mut blocks = Vec::new();
+        for (node, rows) in &of_node {
+            for part in [[rows[0], rows[1], rows[2]], [rows[3], rows[4], rows[5]]] {
+                match part {
+                    [None, None, None] => {}
+                    [Some(x), Some(y), Some(z)] => blocks.push(([x, y, z], self.axes[node])),
+                    _ => return Err(self.lacking(*node, rows)),
+                }
+            }
+        }
+        Ok((Turning::new(dofs.len(), blocks, self.of_axes), of_node.len()))
+    }
+
+    fn lacking(&self, node: i64, rows: &[Option<u32>; 6]) -> Error {
+        let there = crate::dofs::Direction::ALL.iter().zip(rows).filter(|(_, row)| row.is_some());
+        let there: Vec<String> = there.map(|(direction, _)| direction.to_string()).collect();
+        Error::FrameRows { path: self.place.0.clone(), node, found: there.join(", ") }
+    }
+}
+
+/// Reads the table of a job.
+///
+/// # Errors
+/// A file that cannot be read or is no such table; [`Error::FrameAxes`]; [`Error::NodeRepeated`]; [`Error::MemoryRead`].
+pub(super) fn node_frames(path: &Path, allowance: &Allowance) -> Result<NodeFrames> {
+    let claim = allowance.claim(path);
+    let mut table = Table::new(path, open_first_line(path, EXPECTED)?);
+    let label_column = table.require("node", EXPECTED, is_node_column)?;
+    let mut columns = [0; 6];
+    for (column, name) in columns.iter_mut().zip(NAMES) {
+        *column = table.require(name, EXPECTED, |known| known == name)?;
+    }
+    let third: Option<Vec<usize>> = NAMES[6..].iter().map(|name| table.find(|known| known == *name)).collect();
+    let mut frames = NodeFrames { axes: BTreeMap::new(), of_axes: 0.0, place: (path.to_owned(), 1) };
+    let mut lines: BTreeMap<i64, u64> = BTreeMap::new();
+    while let Some(row) = table.next_row()? {
+        let (node, line) = (row.integer(label_column)?, row.line);
+        if let Some(first_line) = lines.insert(node, line) {
+            return Err(Error::NodeRepeated { path: path.to_owned(), line, node, first_line });
+        }
+        if lines.len() % ROWS_PER_CLAIM == 1 {
+            claim.add(NODE * ROWS_PER_CLAIM as u64)?;
+        }
+        let [x, y] = [vector(&row, &columns[..3])?, vector(&row, &columns[3..])?];
+        let wrong =
+            |found: String| Error::FrameAxes { path: path.to_owned(), line, found: format!("node {node} has {found}") };
+        let axes =
+            spanned(x, y).ok_or_else(|| wrong(format!("x along {x:?} and y along {y:?}, which span no plane")))?;
+        if let Some(third) = &third {
+            let z = vector(&row, third)?;
+            let off = crate::dofs::unit(z).iter().zip(axes[2]).fold(0.0, |off: f64, (a, b)| off.max((a - b).abs()));
+            if off.is_nan() || off > THIRD {
+                return Err(wrong(format!("z along {z:?}, where x and y make it {:?}", axes[2])));
+            }
+        }
+        frames.of_axes = frames.of_axes.max(rounding(x)).max(rounding(y));
+        frames.axes.insert(node, axes);
+    }
+    if frames.axes.is_empty() {
+        return Err(Error::NoData { path: path.to_owned(), expected: "rows of node and axes below the header" });
+    }
+    Ok(frames)
+}
+
+fn vector(row: &Row<'_>, columns: &[usize]) -> Result<[f64; 3]> {
+    Ok([row.number(columns[0])?, row.number(columns[1])?, row.number(columns[2])?])
+}
+
+/// What the components of a direction may be off by: half a unit of the last decimal, where its length is one up to as much. Other
+/// directions are as they are meant.
+fn rounding(direction: [f64; 3]) -> f64 {
+    let off = (direction.iter().map(|value| value * value).sum::<f64>().sqrt() - 1.0).abs();
+    let decimals = direction.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value).n_decimals()).max();
+    let unit = 10f64.powi(-decimals.unwrap_or(0));
+    if off <= WHOLE || off > 2.0 * unit || decimals < Some(MIN_DECIMALS) { 0.0 } else { 0.5 * unit }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_of_few_digits_are_off_by_half_a_unit() {
+        assert_eq!(rounding([0.66667, 0.66667, -0.33333]), 0.5e-5);
+        for exact in [[1.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 2.5], [0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0]] {
+            assert_eq!(rounding(exact), 0.0, "{exact:?}");
+        }
+    }
+}

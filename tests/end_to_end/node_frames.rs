@@ -1,0 +1,402 @@
+//! Nodes whose rows are along axes of their own: everything that has rows is turned, and the superelement is that of the model as it is
+//! along the axes of the model.
+
+use supel::cli::ExitCode;
+use supel_models::transform::{in_local_frames, rounded};
+use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_runtime::{Matrix, Superelement};
+use supel_testing::schema::{assert_follows, validator};
+
+use crate::place::{Ended, Place, steel_brick, supel};
+
+type Axes = [[f64; 3]; 3];
+/// Row, column and value.
+type Entry = (u32, u32, f64);
+
+const ALONG_THE_MODEL: Axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// x along (2, 2, 1) and y along (-2, 1, 2).
+const ASKEW: Axes = {
+    let (a, b) = (2.0 / 3.0, 1.0 / 3.0);
+    [[a, a, b], [-a, b, a], [b, -a, a]]
+};
+
+/// Rows of some nodes along axes of their own.
+struct Turned {
+    sound: Model,
+    nodes: Vec<i64>,
+}
+
+impl Turned {
+    fn is_turned(&self, node: i64) -> bool {
+        self.nodes.contains(&node)
+    }
+
+    fn model(&self) -> Model {
+        in_local_frames(&self.sound, &ASKEW, |node| self.is_turned(node))
+    }
+
+    /// A column of the model along the rows of the files.
+    fn column(&self, column: &[f64]) -> Vec<f64> {
+        let row_of = |dof| self.sound.dofs.iter().position(|other| *other == dof).expect("a row");
+        let along = |(node, direction): &(i64, u8)| {
+            let axes = if self.is_turned(*node) { ASKEW } else { ALONG_THE_MODEL };
+            let first = direction - direction % 3;
+            (0..3u8)
+                .map(|axis| axes[usize::from(direction % 3)][usize::from(axis)] * column[row_of((*node, first + axis))])
+                .sum()
+        };
+        self.sound.dofs.iter().map(along).collect()
+    }
+
+    fn table(&self) -> String {
+        let row = |node: &i64| format!("{node},{},{},{},{},{},{}\n", 2, 2, 1, -2, 1, 2);
+        "node,x1,x2,x3,y1,y2,y3\n".to_owned() + &self.nodes.iter().map(row).collect::<String>()
+    }
+}
+
+/// A frame of beams that is not in one plane, six rows a node.
+fn beams() -> Model {
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [1.4, 0.9, 0.2], [0.6, 1.2, 0.9], [0.1, 0.5, 1.3], [0.8, 0.3, 1.0]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 1], [0, 3]];
+    frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent)
+}
+
+fn array(n_rows: usize, columns: &[Vec<f64>]) -> String {
+    let values: String = columns.iter().flatten().map(|value| format!("{value:e}\n")).collect();
+    format!("%%MatrixMarket matrix array real general\n{n_rows} {}\n{values}", columns.len())
+}
+
+/// A row of as many columns as the values.
+fn row(values: &[f64]) -> String {
+    array(1, &values.iter().map(|value| vec![*value]).collect::<Vec<_>>())
+}
+
+fn general(n: usize, entries: &[Entry]) -> String {
+    let lines: String = entries.iter().map(|(i, j, value)| format!("{} {} {value:e}\n", i + 1, j + 1)).collect();
+    format!("%%MatrixMarket matrix coordinate real general\n{n} {n} {}\n{lines}", entries.len())
+}
+
+/// Writes the columns of a model: a load, constraints, quantities and a gyroscopic matrix.
+fn with_columns(place: &Place, model: &Model, column: impl Fn(&[f64]) -> Vec<f64>, skew: &[Entry]) {
+    let n = model.n;
+    let numbered = |phase: f64| column(&(0..n).map(|row| (1.3 * row as f64 + phase).sin()).collect::<Vec<f64>>());
+    place.write("load.mtx", array(n, &[numbered(0.2)]).as_bytes());
+    // Two nodes move alike in one direction across all axes.
+    let tie: Vec<f64> = model
+        .dofs
+        .iter()
+        .map(|dof| {
+            [1.0, -2.0, 0.5][usize::from(dof.1 % 3)]
+                * f64::from((dof.0 == 3) as i8 - (dof.0 == 4) as i8)
+                * f64::from(dof.1 < 3)
+        })
+        .collect();
+    place.write("ties.mtx", row(&column(&tie)).as_bytes());
+    place.write("stress.mtx", row(&numbered(0.9)).as_bytes());
+    place.write("names.csv", b"name,unit\na,MPa\n");
+    place.write("gyro.mtx", general(n, skew).as_bytes());
+}
+
+const JOB: &str = r#"
+interface = [{ name = "hub", nodes = [1] }, { name = "tip", nodes = [3, 6] }]
+load = [{ name = "f", file = "load.mtx" }]
+matrix = [{ name = "g", file = "gyro.mtx", kind = "gyroscopic" }]
+reduction = { method = "craig-bampton", modes = { count = 4 } }
+
+[model]
+stiffness = "K.mtx"
+mass = "M.mtx"
+dofs = "dofs.txt"
+nodes = "nodes.csv"
+constraints = "ties.mtx"
+constraints_to_ground = "accept"
+FRAMES
+
+[write]
+superelement = "x.supel"
+quantities = { matrix = "stress.mtx", names = "names.csv" }
+recovery = { nodes = [2, 4, 5] }
+"#;
+
+fn reduce(place: &Place, frames: &str) -> Ended {
+    place.write("job.toml", JOB.replace("FRAMES", frames).as_bytes());
+    supel(&["reduce", &place.text("job.toml")])
+}
+
+fn made(place: &Place, frames: &str) -> Superelement {
+    reduce(place, frames).expect(ExitCode::Done);
+    supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
+    place.superelement("x.supel")
+}
+
+/// The largest difference of moduli, relative to the largest entry: modes have either sign.
+fn difference(a: &Matrix, b: &Matrix) -> f64 {
+    assert_eq!([a.rows(), a.cols()], [b.rows(), b.cols()]);
+    let places = || (0..a.rows()).flat_map(|i| (0..a.cols()).map(move |j| (i, j)));
+    let size = places().map(|at| a[at].abs()).fold(0.0, f64::max);
+    places().map(|at| (a[at].abs() - b[at].abs()).abs()).fold(0.0, f64::max) / size
+}
+
+/// Turning rounds entries to 10⁻¹⁶ of the stiffness of a node; the softest of these few modes is 10⁻⁵ of that, and leaves 10⁻¹¹. A matrix
+/// that was not turned, or a row of it, is off by all of its digits.
+const ALIKE: f64 = 1e-9;
+
+#[test]
+fn everything_that_has_rows_is_turned_to_the_axes_of_the_model() {
+    for (name, sound, nodes) in [("beams", beams(), vec![1, 3, 4]), ("solid", steel_brick(), vec![1, 3, 4, 6, 20, 33])]
+    {
+        let turned = Turned { sound, nodes };
+        // Skew: what spins about all axes.
+        let skew = {
+            let upper = turned.sound.mass.iter().filter(|(i, j, _)| i > j);
+            upper.flat_map(|(i, j, value)| [(*i, *j, *value), (*j, *i, -*value)]).collect::<Vec<Entry>>()
+        };
+        let as_it_is = Place::with(&turned.sound);
+        with_columns(&as_it_is, &turned.sound, <[f64]>::to_vec, &skew);
+        let place = Place::with(&turned.model());
+        let local_skew =
+            in_local_frames(&Model { stiffness: skew, ..turned.sound.clone() }, &ASKEW, |node| turned.is_turned(node));
+        with_columns(&place, &turned.sound, |column| turned.column(column), &exactly_skew(&local_skew.stiffness));
+        place.write("frames.csv", turned.table().as_bytes());
+
+        let (expected, found) = (made(&as_it_is, ""), made(&place, "frames = \"frames.csv\""));
+        let (a, b) = (expected.tensors(), found.tensors());
+        assert_eq!(expected.metadata().coordinates.len(), found.metadata().coordinates.len(), "{name}");
+        let some = |matrix: &Option<Matrix>| matrix.clone().expect("a matrix");
+        let recovered =
+            |superelement: &Superelement| superelement.tensors().recovery.clone().expect("rows").rows().clone();
+        for (what, a, b) in [
+            ("stiffness", &a.stiffness, &b.stiffness),
+            ("mass", &a.mass, &b.mass),
+            ("loads", &some(&a.load_vectors), &some(&b.load_vectors)),
+            ("quantities", &some(&a.quantities), &some(&b.quantities)),
+            ("recovery", &recovered(&expected), &recovered(&found)),
+            ("gyroscopic", &a.matrices[0], &b.matrices[0]),
+        ] {
+            let difference = difference(a, b);
+            assert!(difference < ALIKE, "{name}, {what}: {difference:e}");
+        }
+        let notes = place.report("x.report.json").to_string();
+        assert!(
+            notes.contains(&format!("frames.csv: {} nodes have rows along axes of their own", turned.nodes.len())),
+            "{notes}"
+        );
+        assert_follows(&validator("report"), &place.report("x.report.json"));
+
+        // Without the axes the rows are not those of any component, and with those of other nodes neither.
+        reduce(&place, "").expect(ExitCode::InputData);
+        let others = Turned { sound: turned.sound.clone(), nodes: vec![2, 5] };
+        place.write("frames.csv", others.table().as_bytes());
+        let ended = reduce(&place, "frames = \"frames.csv\"").expect(ExitCode::InputData);
+        assert!(ended.err.contains("E-COORD"), "{}", ended.err);
+    }
+}
+
+/// The lower entries and their negatives: what two sums leave differs in the last bit.
+fn exactly_skew(entries: &[Entry]) -> Vec<Entry> {
+    let lower = entries.iter().filter(|(i, j, _)| i > j);
+    lower.flat_map(|(i, j, value)| [(*i, *j, *value), (*j, *i, -*value)]).collect()
+}
+
+/// Matrices of few digits stay verified, with a warning of the digits where there are six; axes of few digits are told from wrong ones.
+#[test]
+fn few_digits_of_matrices_and_of_axes() {
+    let turned = Turned { sound: steel_brick(), nodes: (1..=20).collect() };
+    let reduction = "--interface hub=5,15,45 --method herting --modes 3";
+    for (digits, strict) in [(6, ""), (10, " --strict")] {
+        let place = Place::with(&rounded(&turned.model(), digits));
+        place.write("frames.csv", turned.table().as_bytes());
+        let mut flags = place.model_flags();
+        flags.extend(["--frames".to_owned(), place.text("frames.csv")]);
+        place.reduce(&flags, &format!("{reduction}{strict}")).expect(ExitCode::Done);
+        let table = turned.table().replace("2,2,1,-2,1,2", "0.66667,0.66667,0.33333,-0.66667,0.33333,0.66667");
+        place.write("frames.csv", table.as_bytes());
+        place.reduce(&flags, reduction).expect(ExitCode::Done);
+        let wrong = table.replace("0.66667,0.66667,0.33333", "0.70000,0.66667,0.33333");
+        place.write("frames.csv", wrong.as_bytes());
+        let ended = place.reduce(&flags, reduction);
+        assert_ne!(ended.code, ExitCode::Done, "{digits} digits: {}", ended.out);
+    }
+}
+
+#[test]
+fn tables_that_are_no_axes_are_refused_by_line_and_node() {
+    let turned = Turned { sound: steel_brick(), nodes: vec![7] };
+    let place = Place::with(&turned.model());
+    let mut flags = place.model_flags();
+    flags.extend(["--frames".to_owned(), place.text("frames.csv")]);
+    let sound = turned.table();
+    for (table, expected) in [
+        (sound.replace("-2,1,2", "4,4,2"), ["E-FRAME-AXES", "frames.csv:2: node 7 has x along"]),
+        (sound.replace("2,2,1", "0,0,0"), ["E-FRAME-AXES", "which span no plane"]),
+        (
+            sound.replace("y3\n", "y3,z1,z2,z3\n").replace("-2,1,2", "-2,1,2,-1,2,-2"),
+            ["E-FRAME-AXES", "where x and y make it"],
+        ),
+        (sound.clone() + "7,1,0,0,0,1,0\n", ["E-NODE-REPEATED", "frames.csv:3"]),
+        (sound.replace("7,2", "700,2"), ["E-FRAME-NODES", "axes of 1 node, of which none has rows"]),
+        (sound.replace("x1,", "a,"), ["E-TABLE-COLUMN", "x1"]),
+        ("node,x1,x2,x3,y1,y2,y3\n".to_owned(), ["E-NO-DATA", "frames.csv"]),
+    ] {
+        place.write("frames.csv", table.as_bytes());
+        let ended = place.reduce(&flags, "--interface hub=5,15,45 --method guyan").expect(ExitCode::InputData);
+        for expected in expected {
+            assert!(ended.err.contains(expected), "{table}: {}", ended.err);
+        }
+    }
+    // A support took a row of the node out of the matrices: the two that are left cannot be turned.
+    let held = supel_models::transform::supported(&turned.model(), |dof| dof == (7, 2));
+    let place = Place::with(&held);
+    place.write("frames.csv", sound.as_bytes());
+    let mut flags = place.model_flags();
+    flags.extend(["--frames".to_owned(), place.text("frames.csv")]);
+    let ended = place.reduce(&flags, "--interface hub=5,15,45 --method guyan").expect(ExitCode::InputData);
+    assert!(
+        ended.err.contains("E-FRAME-ROWS")
+            && ended.err.contains("node 7 has axes of its own, and only the rows ux, uy"),
+        "{}",
+        ended.err
+    );
+}
+
+/// Eigenpairs in the rows of the files are held against the model along its own axes.
+#[test]
+fn modes_of_another_program_are_turned_with_the_matrices() {
+    let turned = Turned { sound: beams(), nodes: vec![2, 5] };
+    let place = Place::with(&turned.model());
+    place.write("frames.csv", turned.table().as_bytes());
+    let model = turned.sound.clone();
+    let [k, m] = supel_testing::pencil::matrices(&model);
+    let (lambda, shapes) = supel_testing::pencil::eigen(k.as_ref(), m.as_ref(), 1e4);
+    let columns: Vec<Vec<f64>> =
+        (0..9).map(|j| turned.column(&shapes.col(j).iter().copied().collect::<Vec<f64>>())).collect();
+    place.write("modes.mtx", array(model.n, &columns).as_bytes());
+    place.write(
+        "lambda.txt",
+        lambda[..9].iter().map(|value| format!("{:e}\n", value.max(0.0))).collect::<String>().as_bytes(),
+    );
+    let files = ["K.mtx", "M.mtx", "modes.mtx"].map(|name| place.text(name));
+    let (dofs, nodes, frames, values) =
+        (place.text("dofs.txt"), place.text("nodes.csv"), place.text("frames.csv"), place.text("lambda.txt"));
+    let mut args =
+        vec!["certify", &files[0], &files[1], &files[2], "--eigenvalues", &values, "--dofs", &dofs, "--nodes", &nodes];
+    args.extend(["--frames", &frames]);
+    supel(&args).expect(ExitCode::Done);
+}
+
+/// Radial and tangential directions about a line, in a system that refers to another.
+#[test]
+fn systems_of_nastran_are_taken_from_the_deck() {
+    let sound = steel_brick();
+    // The line through (0.2, 0.1) along z; the second system is given in the first, and grid points in it too.
+    let systems = "CORD2R,3,,0.2,0.1,0.,0.2,0.1,1.\n,0.2,1.1,0.\n\
+                   CORD2C,7,3,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n\
+                   CORD1R,9,1,2,6\n";
+    let mut model = sound.clone();
+    let mut deck = "BEGIN BULK\n".to_owned() + systems;
+    for (label, [x, y, z]) in (1i64..).zip(&sound.nodes) {
+        let system = match label % 5 {
+            0 => 7,
+            3 => 9,
+            _ => 0,
+        };
+        deck += &format!("GRID,{label},,{x:?},{y:?},{z:?},{system}\n");
+        let (dx, dy) = (x - 0.2, y - 0.1);
+        let r = dx.hypot(dy);
+        let axes = match system {
+            7 => [[dx / r, dy / r, 0.0], [-dy / r, dx / r, 0.0], [0.0, 0.0, 1.0]],
+            // Origin at node 1, z towards node 2, which is along x; node 6 is along y, in the plane of z and x.
+            9 => [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+            _ => continue,
+        };
+        model = in_local_frames(&model, &axes, |node| node == label);
+    }
+    let place = Place::with(&model);
+    place.write("part.bdf", (deck.clone() + "ENDDATA\n").as_bytes());
+    // All of the g-set, of which solids have three rows: rows as EXTRN lists them.
+    let rows: String = (1..=sound.nodes.len()).map(|label| format!("EXTRN,{label},123\n")).collect();
+    place.write("rows.pch", (deck + &rows).as_bytes());
+    let mut flags = place.matrix_flags();
+    flags.extend(["--dofs".into(), place.text("rows.pch"), "--nodes".into(), place.text("nodes.csv")]);
+    let reduction = "--interface hub=5,15,45 --method herting --modes 3 --strict";
+    let ended = place.reduce(&flags, reduction).expect(ExitCode::Done);
+    assert!(ended.out.contains("nodes have rows along axes of their own"), "{}", ended.out);
+    let found = place.superelement("x.supel");
+    let expected = Place::with(&sound);
+    expected.reduce(&expected.model_flags(), reduction).expect(ExitCode::Done);
+    let expected = expected.superelement("x.supel");
+    let difference = difference(&expected.tensors().stiffness, &found.tensors().stiffness);
+    assert!(difference < ALIKE, "{difference:e}");
+    // A system that is not there, and one that refers to itself.
+    for (from, to, message) in [
+        (
+            "CORD1R,9,",
+            "CORD1R,8,",
+            "\"9\" – expected a coordinate system that CORD1 or CORD2 entries of the deck define",
+        ),
+        ("CORD2C,7,3,", "CORD2C,7,7,", "\"7\" – expected a coordinate system that does not refer to itself"),
+    ] {
+        let text = String::from_utf8(place.bytes("rows.pch")).expect("text").replace(from, to);
+        place.write("wrong.pch", text.as_bytes());
+        let mut flags = place.matrix_flags();
+        flags.extend(["--dofs".into(), place.text("wrong.pch"), "--nodes".into(), place.text("nodes.csv")]);
+        let ended = place.reduce(&flags, reduction).expect(ExitCode::InputData);
+        assert!(ended.err.contains(message), "{}", ended.err);
+    }
+}
+
+/// Abaqus writes its labelled rows along the axes of `*TRANSFORM`.
+#[test]
+fn transforms_of_abaqus_are_taken_from_the_deck() {
+    let sound = steel_brick();
+    let mut model = sound.clone();
+    let mut deck = "*NODE\n".to_owned();
+    for (label, [x, y, z]) in (1i64..).zip(&sound.nodes) {
+        deck += &format!("{label}, {x:?}, {y:?}, {z:?}\n");
+    }
+    deck += "*NSET, NSET=RING\n5, 10, 15, 20\n*TRANSFORM, NSET=Ring, TYPE=C\n0.2, 0.1, 0, 0.2, 0.1, 1\n\
+             *NSET, NSET=EDGE\n7, 8\n*TRANSFORM, NSET=EDGE\n2, 2, 1, -2, 1, 2\n*TRANSFORM, NSET=9, TYPE=S\n0.2, 0.1, 0, 0.2, 0.1, 1\n";
+    for label in [5i64, 10, 15, 20, 7, 8, 9] {
+        let [x, y, z] = sound.nodes[label as usize - 1];
+        let (dx, dy) = (x - 0.2, y - 0.1);
+        let r = dx.hypot(dy);
+        let (radial, tangential) = ([dx / r, dy / r, 0.0], [-dy / r, dx / r, 0.0]);
+        let axes = match label {
+            7 | 8 => ASKEW,
+            9 => {
+                let outward = r.hypot(z);
+                // Towards the pole: what is left of z across the radius.
+                [
+                    [dx / outward, dy / outward, z / outward],
+                    tangential,
+                    [-z * radial[0] / outward, -z * radial[1] / outward, r / outward],
+                ]
+            }
+            _ => [radial, tangential, [0.0, 0.0, 1.0]],
+        };
+        model = in_local_frames(&model, &axes, |node| node == label);
+    }
+    let place = Place::with(&model);
+    place.write("part.inp", deck.as_bytes());
+    let labelled = |entries: &[Entry]| -> String {
+        let name = |row: u32| format!("{}, {}", model.dofs[row as usize].0, model.dofs[row as usize].1 + 1);
+        entries
+            .iter()
+            .filter(|(i, j, _)| i >= j)
+            .map(|(i, j, value)| format!("{}, {}, {value:e}\n", name(*i), name(*j)))
+            .collect()
+    };
+    place.write("K.mtx", labelled(&model.stiffness).as_bytes());
+    place.write("M.mtx", labelled(&model.mass).as_bytes());
+    let mut flags = place.matrix_flags();
+    flags.extend(["--nodes".into(), place.text("part.inp")]);
+    let reduction = "--interface hub=5,15,45 --method herting --modes 3 --strict";
+    place.reduce(&flags, reduction).expect(ExitCode::Done);
+    let found = place.superelement("x.supel");
+    let expected = Place::with(&sound);
+    expected.reduce(&expected.model_flags(), reduction).expect(ExitCode::Done);
+    let expected = expected.superelement("x.supel");
+    let difference = difference(&expected.tensors().stiffness, &found.tensors().stiffness);
+    assert!(difference < ALIKE, "{difference:e}");
+}
