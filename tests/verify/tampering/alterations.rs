@@ -220,7 +220,8 @@ fn leave_out_interface(_: &mut Tensors, metadata: &mut Metadata) -> bool {
     let Some(column) = metadata.coordinates.first().filter(|coordinate| coordinate.is_interface()).cloned() else {
         return false;
     };
-    metadata.dropped.push(supel_runtime::DroppedColumn { column, reason: "for no reason".to_owned() });
+    let cause = supel_runtime::DropCause::Spanned;
+    metadata.dropped.push(supel_runtime::DroppedColumn { column, reason: "for no reason".to_owned(), cause });
     true
 }
 
