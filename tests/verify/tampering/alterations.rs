@@ -722,6 +722,17 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
             true
         },
     },
+    Alteration {
+        field: "dropped[].cause",
+        what: "said to be a mode that nothing sees",
+        alter: |_, m| {
+            let dropped = m.dropped.first_mut();
+            dropped.is_some_and(|dropped| {
+                dropped.cause = supel_runtime::DropCause::Unseen;
+                true
+            })
+        },
+    },
     Alteration { field: "dropped[].column.node", what: INTERFACE_LEFT_OUT, alter: leave_out_interface },
     Alteration { field: "dropped[].column.direction", what: INTERFACE_LEFT_OUT, alter: leave_out_interface },
     Alteration {
