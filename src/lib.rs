@@ -78,7 +78,7 @@
 //! ```text
 //! number · dofs · error · unfinished · heap · tally · foreign_exit · regular_file · linked · random · twofold · dense · sparse
 //! cache · factor · eigen
-//! job · plan · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping
+//! job · plan · input · model · partition · rigid · coordinates · constraint · modes · basis · modal_mass · reduction · rubin · damping · unseen
 //! memory_forecast · size_forecast · cost_forecast · verification · audit · certification · assembly
 //! report · output · outcome · examination · line · looks · conversion · export · recovery · cli
 //! ```
@@ -144,6 +144,7 @@ pub mod sparse;
 pub mod tally;
 mod twofold;
 mod unfinished;
+pub mod unseen;
 pub mod verification;
 
 use audit::{Audit, Reference};

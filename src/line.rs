@@ -20,6 +20,7 @@ use crate::random::SEED;
 use crate::reduction::Reduction;
 use crate::report::Observer;
 use crate::rigid::{self, InterfaceRank, RigidBodyModes};
+use crate::unseen::unseen_modes;
 use crate::verification::{self, Evidence};
 use crate::{rubin, size_forecast};
 
@@ -242,6 +243,8 @@ fn with_reduction<T>(
     };
     let rubin = rubin::rubin_where_asked(&job.reduction, &basis, &reduction, &retained)?;
     let damping = Damping::of_reduction(job, partition, &reduction)?;
+    let of_modes = (partition, &retained);
+    let unseen = unseen_modes(plan.unseen(), of_modes, (&basis, &reduction, damping.as_ref()));
     observer.stage("enclosures");
     let enclosures = verification::enclosures_where_asked(component, &retained, job.certified())?;
 
@@ -257,6 +260,7 @@ fn with_reduction<T>(
         answers: answers.as_ref(),
         rubin: rubin.as_ref(),
         damping: damping.as_ref(),
+        unseen: &unseen,
         certificate: certificate.as_ref(),
         enclosures: enclosures.as_ref(),
         expect: job.model.expect.as_ref(),

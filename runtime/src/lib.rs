@@ -169,8 +169,8 @@ pub use further_matrix::{MatrixKind, NamedMatrix, Symmetry};
 pub use mass_properties::mass_properties;
 pub use matrix::Matrix;
 pub use metadata::{
-    CheckSummary, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS, MassProperties, Metadata,
-    Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
+    CheckSummary, DropCause, DroppedColumn, Flag, Generator, InterfaceDof, InterfaceNode, MOTIONS, MassProperties,
+    Metadata, Method, ModelSummary, Quantity, RigidBodyModes, Validity, Verdict, Verification,
 };
 pub use recovered_faces::RecoveredFaces;
 pub use superelement::Superelement;

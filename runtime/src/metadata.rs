@@ -27,7 +27,7 @@ pub struct Metadata {
     /// What each of the r reduced coordinates is: first the dofs of the interface nodes, node by node, then interface
     /// rows, then modal amplitudes.
     pub coordinates: Vec<Coordinate>,
-    /// Modes that were left out because others span them already.
+    /// Columns that were left out: others span them already, or nothing starts or sees them.
     pub dropped: Vec<DroppedColumn>,
     /// Name of each column of `load_vectors`.
     pub load_names: Vec<String>,
@@ -56,9 +56,15 @@ pub struct Metadata {
 }
 
 impl Metadata {
-    /// Every column that the reduction made: the coordinates, then what was left out because others span it.
+    /// Every column that the reduction made: the coordinates, then what was left out.
     pub fn named_columns(&self) -> impl Iterator<Item = &Coordinate> {
         self.coordinates.iter().chain(self.dropped.iter().map(|dropped| &dropped.column))
+    }
+
+    /// Numbers of the modes that are no coordinates because nothing starts them and nothing sees them.
+    pub fn unseen_modes(&self) -> impl Iterator<Item = usize> {
+        let unseen = self.dropped.iter().filter(|dropped| dropped.cause == DropCause::Unseen);
+        unseen.filter_map(|dropped| dropped.column.mode().map(|(mode, _)| mode))
     }
 
     /// A label for each interface node: its own in the model or, for a node that the reduction added, the next number from 1 that no other
@@ -132,6 +138,26 @@ pub struct DroppedColumn {
     pub column: Coordinate,
     /// Why it was left out.
     pub reason: String,
+    /// Why nothing lacks it. Absent from the file where others span it.
+    #[serde(default, skip_serializing_if = "DropCause::is_spanned")]
+    pub cause: DropCause,
+}
+
+/// Why nothing lacks a column that was left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DropCause {
+    /// Others span it.
+    #[default]
+    Spanned,
+    /// It is a mode that neither interface, loads and gravity start nor outputs see: the coordinates move without it.
+    Unseen,
+}
+
+impl DropCause {
+    fn is_spanned(&self) -> bool {
+        *self == Self::Spanned
+    }
 }
 
 /// A quantity that follows from the displacements inside the component: a stress, a strain, the elongation of a spring.

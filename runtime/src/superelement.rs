@@ -1,5 +1,7 @@
 //! The superelement: a component reduced to its interface and a few modal amplitudes.
 
+use alloc::vec::Vec;
+
 use crate::coordinate::Coordinate;
 use crate::error::Result;
 use crate::further_matrix::NamedMatrix;
@@ -63,6 +65,13 @@ impl Superelement {
     pub fn has_rigid_amplitudes(&self) -> bool {
         let mut named = self.metadata.named_columns();
         self.n_interface() > 0 && named.any(|coordinate| matches!(coordinate, Coordinate::RigidBodyMode { .. }))
+    }
+
+    /// ω of the modes that the coordinates have, ascending: those that were left out because nothing sees them are not among them.
+    pub fn frequencies_kept(&self) -> Vec<f64> {
+        let unseen: Vec<usize> = self.metadata.unseen_modes().collect();
+        let all = self.tensors.frequencies.iter().enumerate();
+        all.filter(|(mode, _)| !unseen.contains(mode)).map(|(_, omega)| *omega).collect()
     }
 
     /// Number of rigid-body modes n_r.

@@ -183,7 +183,7 @@ fn largest_bar(superelement: &Superelement) -> f64 {
 /// none.
 fn energy_unit(superelement: &Superelement) -> f64 {
     let tensors = superelement.tensors();
-    let stated = tensors.frequencies.iter().map(|omega| omega * omega).find(|lambda| *lambda > 0.0);
+    let stated = superelement.frequencies_kept().into_iter().map(|omega| omega * omega).find(|lambda| *lambda > 0.0);
     let ratio = |i: usize| (tensors.stiffness[(i, i)] / tensors.mass[(i, i)]).abs();
     let ratios = (0..tensors.mass.rows()).map(ratio).filter(|ratio| ratio.is_finite());
     stated.unwrap_or_else(|| ratios.fold(0.0, f64::max))

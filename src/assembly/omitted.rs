@@ -167,7 +167,7 @@ fn of_free_modes(
         Ok(spectrum) => spectrum,
         Err(why) => return Ok(Err(why)),
     };
-    let others = superelement.tensors().frequencies.len()..spectrum.lambda.len();
+    let others = superelement.frequencies_kept().len()..spectrum.lambda.len();
     if others.clone().any(|j| spectrum.lambda[j] < (1.0 - SAME_EIGENVALUE) * kappa) {
         return Ok(Err(OTHER_FREQUENCIES));
     }
@@ -198,7 +198,7 @@ fn of_held_modes(
         Ok(spectrum) => spectrum,
         Err(why) => return Ok(Err(why)),
     };
-    let n_modes = superelement.tensors().frequencies.len();
+    let n_modes = superelement.frequencies_kept().len();
     let mut modes = Mat::zeros(r, n_modes);
     for (row, at) in moving.iter().enumerate() {
         (0..n_modes).for_each(|j| modes[(*at, j)] = spectrum.shapes[(row, j)]);
@@ -221,7 +221,7 @@ fn stated_spectrum(
     rigid: Mat<f64>,
 ) -> Result<Result<Spectrum, &'static str>> {
     let Some(spectrum) = Pencil::of(k, m, rigid).spectrum(None)? else { return Ok(Err(OTHER_FREQUENCIES)) };
-    let stated: Vec<f64> = superelement.tensors().frequencies.iter().map(|omega| omega * omega).collect();
+    let stated: Vec<f64> = superelement.frequencies_kept().iter().map(|omega| omega * omega).collect();
     let is_found = |(j, stated): (usize, &f64)| {
         let found = spectrum.lambda.get(j);
         found.is_some_and(|found| (found - stated).abs() <= SAME_EIGENVALUE * stated + spectrum.rounding[j])

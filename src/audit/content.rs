@@ -32,6 +32,8 @@ pub(super) struct Content<'a> {
     pub(super) boundary: Boundary,
     /// ω² of its modes.
     pub(super) lambda: Vec<f64>,
+    /// Of those that its coordinates have: without what nothing starts and nothing sees.
+    pub(super) kept: Vec<f64>,
     /// The first elastic eigenvalue, the unit that energies are compared with.
     pub(super) first: f64,
     /// Rounding of the arithmetic and of the data in an energy, relative to `first`, as error bars tell.
@@ -81,7 +83,8 @@ impl<'a> Content<'a> {
         let (k, u) = (unpacked(&tensors.stiffness), unpacked(&tensors.rigid_body_modes));
         let m = if has_mass(superelement) { unpacked(&tensors.mass) } else { unit_mass(&k, u.as_ref()) };
         let lambda: Vec<f64> = tensors.frequencies.iter().map(|omega| omega * omega).collect();
-        let stated = lambda.iter().copied().find(|lambda| *lambda > 0.0);
+        let kept: Vec<f64> = superelement.frequencies_kept().into_iter().map(|omega| omega * omega).collect();
+        let stated = kept.iter().copied().find(|lambda| *lambda > 0.0);
         let parts = (k.as_ref(), m.as_ref(), u.as_ref());
         let mass_rank = mass_rank(superelement);
         let first = match (mass_rank, stated) {
@@ -102,6 +105,7 @@ impl<'a> Content<'a> {
             k,
             m,
             lambda,
+            kept,
             first,
             scale,
         })
@@ -301,7 +305,7 @@ pub(super) fn unit_mass(stiffness: &Mat<f64>, motions: MatRef<'_, f64>) -> Mat<f
 /// The rank that the mass of a file has by its method, where that is less than r.
 pub(super) fn mass_rank(superelement: &Superelement) -> Option<usize> {
     let method = Method::of_file(superelement.metadata().method)?;
-    let rank = superelement.n_rigid() + superelement.tensors().frequencies.len();
+    let rank = superelement.n_rigid() + superelement.frequencies_kept().len();
     (method.mass() == MassOf::RetainedModes && rank < superelement.n_coordinates()).then_some(rank)
 }
 

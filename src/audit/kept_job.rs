@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use supel_runtime::{Coordinate, Generator, RigidBodyModes, Superelement};
+use supel_runtime::{Coordinate, DropCause, DroppedColumn, Generator, RigidBodyModes, Superelement};
 
 use super::content::{Content, flags};
 use super::flaw::flaw;
@@ -12,7 +12,7 @@ use super::rigid_motion::is_nearly_unit;
 use super::version::{applied, is_of_this_version};
 use crate::job::{Axes, Boundary, DofUse, InterfaceJob, Job, Method, ModeOrigin, ModeSelection, NodeSelection};
 use crate::partition::{Frame, OF_THE_MODEL, axes_of_job};
-use crate::plan::Plan;
+use crate::plan::{Plan, Unseen};
 use crate::verification::check::{Check, Limits};
 
 /// Method, units, interfaces, axes, band and recovery are those of the job kept in the file.
@@ -82,6 +82,9 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
     expect(!found.is_empty() || !is_by_rows || rows(content) == asked(), "other interface rows");
     expect(found.is_empty() || metadata.modes_held == held_asked(content, job), "other dofs held for the modes");
     expect(metadata.validity.band_hz == band(content.superelement, job), "another band");
+    let may_leave_out = content.plan.as_ref().is_some_and(|plan| plan.unseen() == Unseen::LeftOut);
+    let is_unseen = |dropped: &DroppedColumn| dropped.cause == DropCause::Unseen;
+    expect(may_leave_out || !metadata.dropped.iter().any(is_unseen), "modes left out as if nothing saw them");
     expect(metadata.load_names.iter().eq(job.loads.iter().map(|load| &load.name)), "other loads");
     expect(tensors.quantities.is_some() == job.write.quantities.is_some(), "other quantities");
     expect(tensors.damping.is_some() || !job.has_damping(), "no damping");
@@ -263,6 +266,10 @@ pub(super) fn accounts(content: &Content<'_>) -> Check {
     }
     if metadata.dropped.iter().any(|dropped| dropped.column.is_interface()) {
         flaws.push("an interface coordinate left out".to_owned());
+    }
+    let is_unseen = |dropped: &&DroppedColumn| dropped.cause == DropCause::Unseen;
+    if metadata.dropped.iter().filter(is_unseen).any(|dropped| dropped.column.mode().is_none()) {
+        flaws.push("something other than a mode left out as if nothing saw it".to_owned());
     }
     if let Some(method) = Method::of_file(metadata.method) {
         flaws.extend(of_method(content, method).iter().map(ToString::to_string));

@@ -28,6 +28,7 @@ mod nearby;
 mod projection;
 mod scaled;
 mod solve_errors;
+mod unseen;
 
 use faer::Mat;
 use supel_runtime::Superelement;
@@ -42,8 +43,9 @@ use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::input::InputFacts;
 use crate::job::{Boundary, Job, MassOf};
+use crate::modes::{Coupling, couplings};
 use crate::partition::Partition;
-use crate::plan::Plan;
+use crate::plan::{Plan, Unseen};
 use crate::reduction::Reduction;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::rubin::rank_or_attachment;
@@ -69,8 +71,27 @@ const SINGULAR: f64 = 1e-2 / f64::EPSILON;
 /// The reduction of a job with K̂ and M̂ of a file in the units of its partition; none where the file has other numbers of coordinates.
 pub fn reduction_of(superelement: &Superelement, evidence: &Evidence<'_>) -> Option<Reduction> {
     let file = Scaled::of(superelement, evidence.partition);
-    let is_alike = file.n_b == evidence.partition.n_interface() && file.k.nrows() == evidence.reduction.n_reduced();
-    is_alike.then(|| Reduction { stiffness: file.k, mass: file.m, ..evidence.reduction.clone() })
+    let n = evidence.reduction.n_reduced();
+    // Modes that both leave out are uncoupled from the matrices of the file, which have a place for each in the whole.
+    let own = evidence.unseen.iter().map(|mode| mode.mode);
+    let kept: Vec<usize> = (0..n).filter(|at| evidence.unseen.iter().all(|mode| mode.coordinate != *at)).collect();
+    let is_alike = file.n_b == evidence.partition.n_interface()
+        && file.k.nrows() == kept.len()
+        && superelement.metadata().unseen_modes().eq(own);
+    let whole = |of_file: &Mat<f64>, own: &Mat<f64>| {
+        let is_left_out = |at: usize| kept.binary_search(&at).is_err();
+        let mut whole = Mat::from_fn(n, n, |i, j| if i == j && is_left_out(i) { own[(i, i)] } else { 0.0 });
+        for (j, to) in kept.iter().enumerate() {
+            kept.iter().enumerate().for_each(|(i, row)| whole[(*row, *to)] = of_file[(i, j)]);
+        }
+        whole
+    };
+    let Reduction { stiffness, mass, .. } = evidence.reduction;
+    is_alike.then(|| Reduction {
+        stiffness: whole(&file.k, stiffness),
+        mass: whole(&file.m, mass),
+        ..evidence.reduction.clone()
+    })
 }
 
 /// What a superelement of a job has to be, computed without a superelement.
@@ -80,6 +101,8 @@ pub struct Reference<'a> {
     partition: &'a Partition,
     motions: KnownMotions,
     asked: AskedModes,
+    /// What each mode contributes, where the plan lets modes go that contribute nothing.
+    couplings: Vec<Coupling>,
     projected: Projected,
     /// The first elastic eigenvalue.
     first: f64,
@@ -136,9 +159,13 @@ impl<'a> Reference<'a> {
                     angle: angles.fold(if rigid.count() > 0 { rigid.energy.angle } else { 0.0 }, f64::max),
                 }
             });
+        let couplings = match plan.unseen() {
+            Unseen::LeftOut => couplings(partition, (&asked.modes, asked.boundary), plan.gravity()),
+            Unseen::Kept => Vec::new(),
+        };
         let projected = Projected::new(partition, columns, (unit, zero.count()), massive);
         let noise = energy_noise((partition, &given), asked.known(), first);
-        Ok(Self { plan, facts, partition, motions, asked: asked.without_shapes(), projected, first, noise })
+        Ok(Self { plan, facts, partition, motions, asked: asked.without_shapes(), couplings, projected, first, noise })
     }
 
     /// What rounding and the digits of the data make of a file of this reference.
@@ -192,6 +219,8 @@ impl<'a> Reference<'a> {
         checks.push(identity::n_modes(superelement, &self.asked));
         checks.push(identity::modal_coordinates(superelement, &self.projected, self.asked.boundary));
         checks.push(self.solves());
+        let modes = (&self.couplings[..], self.asked.boundary);
+        checks.extend(unseen::unseen(superelement, &self.projected, modes, self.first));
         match mass_rank(superelement).is_none() && condition_of(file.m.as_ref())? < SINGULAR {
             true => {
                 checks.extend(identity::dropped(superelement, (&self.projected, self.partition), self.asked.boundary))

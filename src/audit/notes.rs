@@ -37,7 +37,7 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 33] = [
+const ALONE: [Unvouched; 34] = [
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -55,6 +55,7 @@ const ALONE: [Unvouched; 33] = [
     unvouched("dropped", "how many modes their file had is known from that file only"),
     unvouched("dropped[].column", "a column that was left out is in no matrix"),
     unvouched("dropped[].reason", "words for people"),
+    unvouched("dropped[].cause", "what starts a mode that is in no matrix is known from the model only"),
     unvouched("model.n_dofs", NOT_AT_HAND),
     unvouched("model.rigid_body_modes", "without interface nodes nothing else tells unit motions from others"),
     unvouched(
@@ -117,6 +118,7 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "coordinates[].error_bar_hz" => !tensors.frequencies.is_empty(),
         "dropped" => metadata.method == Method::ModeAcceleration,
         "dropped[].column" | "dropped[].reason" => !metadata.dropped.is_empty(),
+        "dropped[].cause" => metadata.unseen_modes().next().is_some(),
         "model.rigid_body_modes" => metadata.interface_nodes.is_empty(),
         "mixing" => tensors.mixing.is_some(),
         "model.mass_properties" => is_algebraic && metadata.model.mass_properties.is_some(),

@@ -104,6 +104,7 @@ fn least(content: &Content<'_>, entry: &Entry) -> usize {
             let mut columns = content.superelement.metadata().named_columns();
             usize::from(columns.any(|coordinate| matches!(coordinate, Coordinate::ResidualVector { .. })))
         }
+        Recorded::WithUnseenModes => usize::from(content.superelement.metadata().unseen_modes().next().is_some()),
         Recorded::WithDamping => usize::from(content.job().is_some_and(Job::has_damping)),
         Recorded::WithAccepted(measure) => {
             let accept = content.job().map(Job::accepted).unwrap_or_default();

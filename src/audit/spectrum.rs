@@ -22,7 +22,7 @@ impl Spectrum {
     pub(super) fn of(content: &Content<'_>) -> Result<Self> {
         let (k, m) = (content.k.as_ref(), content.m.as_ref());
         let mut free = eigenvalues(k, m, content.first)?;
-        sharpen(&mut free, (k, m), content.first, content.n_rigid() + content.lambda.len())?;
+        sharpen(&mut free, (k, m), content.first, content.n_rigid() + content.kept.len())?;
         let same_boundary = match content.boundary {
             Boundary::FreeInterface => free.get(content.n_rigid()..).unwrap_or_default().to_vec(),
             Boundary::FixedInterface | Boundary::MixedInterface => {
@@ -31,9 +31,9 @@ impl Spectrum {
                 let inner = (k.as_ref(), m.as_ref());
                 let n_zero = if content.boundary == Boundary::MixedInterface { content.n_passing()? } else { 0 };
                 // A heavy mass inside makes the held component far softer than the free one, whose first eigenvalue leaves it no digits.
-                let near = content.lambda.iter().copied().find(|lambda| *lambda > 0.0).unwrap_or(content.first);
+                let near = content.kept.iter().copied().find(|lambda| *lambda > 0.0).unwrap_or(content.first);
                 let mut held = eigenvalues(inner.0, inner.1, near)?;
-                sharpen(&mut held, inner, near, n_zero + content.lambda.len())?;
+                sharpen(&mut held, inner, near, n_zero + content.kept.len())?;
                 held.split_off(n_zero.min(held.len()))
             }
         };
@@ -54,7 +54,7 @@ impl Spectrum {
 /// M-14: the eigenvalues of K̂ and M̂ are those the file names.
 pub(super) fn frequencies(content: &Content<'_>, spectrum: &Spectrum) -> Check {
     let mut worst = (0.0, None);
-    for (j, lambda) in content.lambda.iter().enumerate() {
+    for (j, lambda) in content.kept.iter().enumerate() {
         let found = spectrum.same_boundary.get(j).copied().unwrap_or(f64::INFINITY);
         let difference = 0.5 * (found / lambda - 1.0).abs();
         if dense::worse(difference, worst.0) {

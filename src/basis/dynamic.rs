@@ -35,6 +35,14 @@ pub enum DynamicCoordinate {
 }
 
 impl DynamicCoordinate {
+    /// The number of the mode, of one that was computed.
+    pub fn mode(self) -> Option<usize> {
+        match self {
+            Self::FreeFree(mode) | Self::FixedInterface(mode) | Self::MixedInterface(mode) => Some(mode),
+            Self::RigidBody(_) | Self::InertiaRelief(_) | Self::Expansion(_) | Self::ResidualVector(_) => None,
+        }
+    }
+
     /// What it is called, counted from one: `mode 3`, `residual vector of thrust`. `loads` are those of the job.
     pub fn name(self, loads: &[LoadFacts]) -> String {
         match self {

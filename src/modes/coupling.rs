@@ -19,6 +19,8 @@
 //! zero as far as arithmetic tells. Where that is more than 10⁻⁶ of the largest, arithmetic does not tell, and the mode counts as seen. Modes of
 //! one cluster share a space in which any basis is one of modes: they are seen together or not at all.
 
+use std::ops::Range;
+
 use faer::{Mat, MatRef};
 
 use crate::dense;
@@ -29,8 +31,8 @@ use crate::sparse::{diagonal, product};
 
 /// How far roundings may exceed their estimate.
 const ROUNDINGS: f64 = 100.0;
-/// Share of the largest coupling up to which one may be called rounding.
-const MOST: f64 = 1e-6;
+/// Share of the largest coupling up to which one may be called rounding. What a mode does to the rest goes with the square of it, 10⁻¹².
+pub const MAX_UNSEEN_COUPLING: f64 = 1e-6;
 /// Backward error beyond which a mode is not known well enough to be called unseen.
 const SETTLED: f64 = 1e-10;
 
@@ -39,6 +41,8 @@ const SETTLED: f64 = 1e-10;
 pub struct Coupling {
     /// c.
     pub size: f64,
+    /// That of its cluster, the root of the sum of squares, over the largest of all modes.
+    pub share: f64,
     /// Up to which c is rounding.
     pub rounding: f64,
     /// Whether interface, outputs or loads see the mode.
@@ -47,7 +51,7 @@ pub struct Coupling {
 
 /// The couplings of modes with shapes on n' or, of the held interface, n_I dofs; `gravity` is the one direction in which it acts, zero where it
 /// acts in none.
-pub(super) fn couplings(
+pub(crate) fn couplings(
     partition: &Partition,
     (modes, boundary): (&Modes, Boundary),
     gravity: Option<[f64; 3]>,
@@ -154,12 +158,7 @@ fn judged(modes: &Modes, sizes: &[f64]) -> Vec<Coupling> {
     let Modes { lambda, errors, next, .. } = modes;
     let largest = dense::worst(sizes.iter().copied());
     let mut couplings = Vec::with_capacity(sizes.len());
-    while couplings.len() < sizes.len() {
-        let first = couplings.len();
-        let mut end = first + 1;
-        while end < sizes.len() && are_clustered(lambda[end - 1], lambda[end]) {
-            end += 1;
-        }
+    for Range { start: first, end } in clusters(lambda) {
         let below = if first == 0 { lambda[0] } else { lambda[first] - lambda[first - 1] };
         let above = lambda.get(end).copied().or(*next).map_or(f64::INFINITY, |above| above - lambda[end - 1]);
         let gap = below.min(above);
@@ -170,10 +169,25 @@ fn judged(modes: &Modes, sizes: &[f64]) -> Vec<Coupling> {
         let rounding = ROUNDINGS * dense::worst(cluster.map(mixed_in)) * largest;
         let size = sizes[first..end].iter().map(|size| size * size).sum::<f64>().sqrt();
         // Where nothing acts and nothing looks, or a dof has no stiffness of its own, there is nothing to compare with.
-        let is_known = (gap > 0.0 && largest > 0.0 && largest.is_finite() && rounding <= MOST * largest)
+        let is_known = (gap > 0.0 && largest > 0.0 && largest.is_finite() && rounding <= MAX_UNSEEN_COUPLING * largest)
             && errors[first..end].iter().all(|error| error.backward <= SETTLED);
         let is_seen = !(is_known && size <= rounding);
-        couplings.extend(sizes[first..end].iter().map(|size| Coupling { size: *size, rounding, is_seen }));
+        let of_largest = |size: f64| if largest > 0.0 { size / largest } else { f64::INFINITY };
+        let share = of_largest(size);
+        couplings.extend(sizes[first..end].iter().map(|size| Coupling { size: *size, share, rounding, is_seen }));
     }
     couplings
+}
+
+/// Runs of eigenvalues that are one cluster.
+pub(crate) fn clusters(lambda: &[f64]) -> Vec<Range<usize>> {
+    let mut clusters = Vec::new();
+    let mut first = 0;
+    for end in 1..=lambda.len() {
+        if end == lambda.len() || !are_clustered(lambda[end - 1], lambda[end]) {
+            clusters.push(first..end);
+            first = end;
+        }
+    }
+    clusters
 }

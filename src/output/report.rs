@@ -10,7 +10,7 @@ use crate::input::{Faces, PatchFaces};
 use crate::job::{Certify, InterfaceJob, ModeSelection, Origin};
 use crate::model::RoundedCoordinates;
 use crate::modes::CountedInterval;
-use crate::number::counted;
+use crate::number::{counted, quantity};
 use crate::partition::{InterfaceNode, LoadFacts};
 use crate::plan::Mass;
 use crate::report::{
@@ -97,6 +97,7 @@ fn mass_properties(results: &Results<'_>) -> MassProperties {
 fn reduction(results: &Results<'_>) -> ReductionReport {
     let evidence = &results.evidence;
     let basis = evidence.basis;
+    let n_unseen = evidence.unseen.len();
     let is_relief = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::InertiaRelief(_));
     let n_inertia_relief = basis.coordinates.iter().filter(is_relief).count();
     let is_rigid = |c: &&DynamicCoordinate| matches!(c, DynamicCoordinate::RigidBody(_));
@@ -111,24 +112,37 @@ fn reduction(results: &Results<'_>) -> ReductionReport {
         interfaces: interfaces(results),
         n_interface: evidence.partition.n_interface(),
         n_inertia_relief,
-        n_modes: basis.n_dynamic() - n_inertia_relief - n_rigid_body - n_expansion_modes - n_residual_vectors,
-        n_reduced: basis.n_reduced(),
-        mass_rank: evidence.reduction.mass_rank(),
+        n_modes: basis.n_dynamic()
+            - n_inertia_relief
+            - n_rigid_body
+            - n_expansion_modes
+            - n_residual_vectors
+            - n_unseen,
+        n_reduced: basis.n_reduced() - n_unseen,
+        mass_rank: evidence.reduction.mass_rank().map(|rank| rank - n_unseen),
         modes_held: results.job().reduction.held.as_ref().map(|held| held.iter().map(|held| held.0.clone()).collect()),
         expansion: expansion::report(results),
         loads: loads(results),
         skipped: skipped(results),
-        dropped: basis
-            .dropped
-            .iter()
-            .map(|column| DroppedCoordinate {
-                coordinate: column.coordinate.name(&evidence.partition.loads.facts),
-                reason: format!("depends on the columns before it ({:.1e} of its length is left)", column.remaining),
-            })
-            .collect(),
+        dropped: dropped(results),
         unseen: mode_rows::unseen(results),
         modes: mode_rows::modes(results),
     }
+}
+
+/// Columns that others span, then modes that nothing starts and nothing sees, with their frequencies.
+fn dropped(results: &Results<'_>) -> Vec<DroppedCoordinate> {
+    let Evidence { basis, unseen, partition, .. } = results.evidence;
+    let spanned = basis.dropped.iter().map(|column| DroppedCoordinate {
+        coordinate: column.coordinate.name(&partition.loads.facts),
+        reason: format!("depends on the columns before it ({:.1e} of its length is left)", column.remaining),
+    });
+    let eigenvalues = results.eigenvalues();
+    let unseen = unseen.iter().map(|mode| DroppedCoordinate {
+        coordinate: format!("mode {}", mode.mode + 1),
+        reason: format!("at {} Hz: {}", quantity(partition.scaling.hertz(eigenvalues[mode.mode]), 6), mode.reason()),
+    });
+    spanned.chain(unseen).collect()
 }
 
 /// One row for each load of the job, in its order.

@@ -56,6 +56,12 @@ impl<'a> Results<'a> {
         retained.modes.lambda.iter().enumerate().map(printed).collect()
     }
 
+    /// Numbers of the reduced coordinates that the superelement has: all but those of modes that nothing starts and nothing sees.
+    pub(super) fn kept(&self) -> Vec<usize> {
+        let is_left_out = |at: usize| self.evidence.unseen.iter().any(|mode| mode.coordinate == at);
+        (0..self.evidence.basis.n_reduced()).filter(|at| !is_left_out(*at)).collect()
+    }
+
     /// What was done, counted.
     pub(super) fn work(&self) -> WorkCounters {
         let Evidence { retained, certificate, enclosures, .. } = self.evidence;

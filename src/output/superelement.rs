@@ -50,30 +50,30 @@ fn tensors(results: &Results<'_>) -> Tensors {
     let shape = scaling.shape_unit();
     // A coordinate's unit: one for an interface dof, that of a mass-normalised shape for a modal amplitude.
     let unit = |i: usize| if i < n_b { 1.0 } else { shape };
-    let rows = |a: &Mat<f64>, of: f64| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] * of * unit(i));
+    let kept = results.kept();
+    let rows = |a: &Mat<f64>| Matrix::from_fn(kept.len(), a.ncols(), |i, j| a[(kept[i], j)]);
+    let both = |a: &Mat<f64>| Matrix::from_fn(kept.len(), kept.len(), |i, j| a[(kept[i], kept[j])]);
     let model = reduction.in_user_units(partition);
     let mut rigid_body_mass = reduction.rigid_body_mass.clone();
     rigid_body_mass *= faer::Scale(scaling.mass_unit());
     let nodes = named_nodes(results);
     let has_mass = results.plan.mass() == Mass::Reduced;
-    let of_mass = |a: MatRef<'_, f64>| if has_mass { matrix(a) } else { Matrix::default() };
+    let of_mass = |a: Matrix| if has_mass { a } else { Matrix::default() };
     Tensors {
-        stiffness: matrix(model.stiffness.as_ref()),
-        mass: of_mass(model.mass.as_ref()),
-        rigid_body_modes: matrix(model.rigid_body_modes.as_ref()),
-        rigid_body_mass: of_mass(rigid_body_mass.as_ref()),
+        stiffness: both(&model.stiffness),
+        mass: of_mass(both(&model.mass)),
+        rigid_body_modes: rows(&model.rigid_body_modes),
+        rigid_body_mass: of_mass(matrix(rigid_body_mass.as_ref())),
         interface_positions: nodes.iter().map(|node| node.position).collect(),
         interface_frames: frames(results, nodes.len()),
         frequencies: frequencies(results),
-        mixing: mixing(results).as_ref().map(|mixing| matrix(mixing.as_ref())),
-        gravity: reduction
-            .gravity
-            .as_ref()
-            .filter(|_| has_mass)
-            .map(|gravity| matrix(rows(gravity, scaling.mass_unit()).as_ref())),
+        mixing: mixing(results),
+        gravity: reduction.gravity.as_ref().filter(|_| has_mass).map(|gravity| {
+            rows(&Mat::from_fn(gravity.nrows(), 3, |i, j| gravity[(i, j)] * scaling.mass_unit() * unit(i)))
+        }),
         load_vectors: load_vectors(results),
-        matrices: model.matrices.iter().map(|further| matrix(further.as_ref())).collect(),
-        damping: evidence.damping.map(|damping| matrix(damping.matrix.as_ref())),
+        matrices: model.matrices.iter().map(both).collect(),
+        damping: evidence.damping.map(|damping| both(&damping.matrix)),
         ..Tensors::default()
     }
 }
@@ -83,9 +83,12 @@ fn load_vectors(results: &Results<'_>) -> Option<Matrix> {
     let (reduction, partition) = (results.evidence.reduction, results.evidence.partition);
     let (n_b, shape) = (partition.n_interface(), partition.scaling.shape_unit());
     let coordinate = |i: usize| if i < n_b { 1.0 } else { shape };
-    let entry = |i: usize, load: usize| reduction.loads[(i, load)] * partition.loads.facts[load].unit * coordinate(i);
+    let kept = results.kept();
+    let entry = |i: usize, load: usize| {
+        reduction.loads[(kept[i], load)] * partition.loads.facts[load].unit * coordinate(kept[i])
+    };
     let n_loads = partition.loads.count();
-    (n_loads > 0).then(|| Matrix::from_fn(reduction.n_reduced(), n_loads, entry))
+    (n_loads > 0).then(|| Matrix::from_fn(kept.len(), n_loads, entry))
 }
 
 fn matrix(a: MatRef<'_, f64>) -> Matrix {
@@ -102,7 +105,7 @@ fn frequencies(results: &Results<'_>) -> Vec<f64> {
 }
 
 /// Stored dynamic modes = named modes · mixing, in the user's units; none where every column is its named mode.
-fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
+fn mixing(results: &Results<'_>) -> Option<Matrix> {
     let evidence = &results.evidence;
     if evidence.basis.coordinates.iter().all(|c| matches!(c, DynamicCoordinate::FixedInterface(_))) {
         return None;
@@ -121,7 +124,10 @@ fn mixing(results: &Results<'_>) -> Option<Mat<f64>> {
         DynamicCoordinate::ResidualVector(load) => evidence.partition.loads.facts[load].unit / scaling.stiffness_unit(),
     };
     let unit: Vec<f64> = evidence.basis.coordinates.iter().map(|c| scaling.shape_unit() / named_unit(*c)).collect();
-    Some(Mat::from_fn(mixing.nrows(), mixing.ncols(), |i, j| mixing[(i, j)] * unit[i]))
+    // A mode that is left out is orthogonal to all other columns, which have nothing of it.
+    let n_b = evidence.partition.n_interface();
+    let kept: Vec<usize> = results.kept().into_iter().filter_map(|at| at.checked_sub(n_b)).collect();
+    Some(Matrix::from_fn(kept.len(), kept.len(), |i, j| mixing[(kept[i], kept[j])] * unit[kept[i]]))
 }
 
 /// Interface nodes of the file: those whose position is known. Without coordinates the interface is bare rows.
@@ -148,14 +154,8 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
     let evidence = &results.evidence;
     let interface_nodes = named_nodes(results);
     let mut coordinates = interface_coordinates(results, &interface_nodes);
-    coordinates.extend(evidence.basis.coordinates.iter().map(|c| dynamic_coordinate(results, tensors, *c)));
-    let dropped = evidence.basis.dropped.iter().map(|column| file::DroppedColumn {
-        column: dynamic_coordinate(results, tensors, column.coordinate),
-        reason: format!(
-            "depends on the columns before it: {:.1e} of its length is left, 1e-8 is needed",
-            column.remaining
-        ),
-    });
+    let kept = results.kept().into_iter().filter_map(|at| at.checked_sub(evidence.partition.n_interface()));
+    coordinates.extend(kept.map(|slot| dynamic_coordinate(results, tensors, evidence.basis.coordinates[slot])));
     let digests = results.input.digests();
     Ok(Metadata {
         generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
@@ -163,7 +163,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         units: results.job().model.units.clone(),
         interface_nodes,
         coordinates,
-        dropped: dropped.collect(),
+        dropped: dropped(results, tensors),
         load_names: evidence.partition.loads.facts.iter().map(|load| load.name.clone()).collect(),
         quantities: evidence.partition.quantities.names.clone(),
         matrices: evidence.partition.matrices.iter().map(|carried| carried.facts.in_file()).collect(),
@@ -187,6 +187,38 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         job: job_document(results.plan.given())?,
         verification: verification(&results.checks(), verdict),
     })
+}
+
+/// What was left out, in the order of the method: columns that others span, and modes that nothing starts and nothing sees.
+fn dropped(results: &Results<'_>, tensors: &Tensors) -> Vec<file::DroppedColumn> {
+    let Evidence { basis, unseen, partition, .. } = results.evidence;
+    let of = |coordinate: DynamicCoordinate, reason: String, cause: file::DropCause| file::DroppedColumn {
+        column: dynamic_coordinate(results, tensors, coordinate),
+        reason,
+        cause,
+    };
+    let spanned = basis.dropped.iter().map(|column| {
+        let reason =
+            format!("depends on the columns before it: {:.1e} of its length is left, 1e-8 is needed", column.remaining);
+        (column.coordinate, of(column.coordinate, reason, file::DropCause::Spanned))
+    });
+    let unseen = unseen.iter().map(|mode| {
+        let coordinate = basis.coordinates[mode.coordinate - partition.n_interface()];
+        (coordinate, of(coordinate, mode.reason(), file::DropCause::Unseen))
+    });
+    // Relief comes before modes, and these before answers to loads.
+    let place = |coordinate: DynamicCoordinate| match coordinate {
+        DynamicCoordinate::RigidBody(index) => (0, index),
+        DynamicCoordinate::InertiaRelief(index) => (1, index),
+        DynamicCoordinate::FreeFree(mode)
+        | DynamicCoordinate::FixedInterface(mode)
+        | DynamicCoordinate::MixedInterface(mode) => (2, mode),
+        DynamicCoordinate::Expansion(column) => (3, column),
+        DynamicCoordinate::ResidualVector(load) => (4, load),
+    };
+    let mut all: Vec<(DynamicCoordinate, file::DroppedColumn)> = spanned.chain(unseen).collect();
+    all.sort_by_key(|(coordinate, _)| place(*coordinate));
+    all.into_iter().map(|(_, column)| column).collect()
 }
 
 /// The mass properties of one body that nothing holds: what moves of a held component has less mass than the whole.

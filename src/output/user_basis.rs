@@ -6,7 +6,7 @@ use super::results::Results;
 use crate::reduction::panel_of;
 use crate::sparse::panels;
 
-/// Combinations of rows of Ψ, by the dofs of the partition and their factors, m × r: displacements in the user's units per unit of each
+/// Combinations of rows of Ψ, by the dofs of the partition and their factors, m × r' of the coordinates that are kept: displacements in the user's units per unit of each
 /// coordinate. Columns of the basis come some at a time, and only the rows asked for are kept.
 pub(super) fn combined_rows(results: &Results<'_>, rows: &[Vec<(u32, f64)>]) -> Matrix {
     let (partition, basis) = (results.evidence.partition, results.evidence.basis);
@@ -21,5 +21,6 @@ pub(super) fn combined_rows(results: &Results<'_>, rows: &[Vec<(u32, f64)>]) -> 
             }
         }
     }
-    Matrix::from_fn(rows.len(), r, |i, j| values[i * r + j])
+    let kept = results.kept();
+    Matrix::from_fn(rows.len(), kept.len(), |i, j| values[i * r + kept[j]])
 }

@@ -24,6 +24,6 @@ mod table;
 pub use facts::{Facts, Hold, MassPattern};
 pub use plan::{Plan, Row};
 pub use rule::{Decision, Kind, Rule, RuleId};
-pub use rules::{CutOff, Mass, Modes, Parting, Relief, Statics};
+pub use rules::{CutOff, Mass, Modes, Parting, Relief, Statics, Unseen};
 pub use scene::Scene;
 pub use table::RULES;

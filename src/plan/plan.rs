@@ -136,6 +136,11 @@ impl Plan {
         rules::modes(&self.scene())
     }
 
+    /// What becomes of modes that nothing starts and nothing sees.
+    pub fn unseen(&self) -> rules::Unseen {
+        rules::unseen(&self.scene())
+    }
+
     /// In which form the constraint modes are made: stored where the model is not known.
     pub fn statics(&self) -> rules::Statics {
         self.facts.as_ref().map_or(rules::Statics::Stored, |facts| rules::statics(&self.scene(), facts))

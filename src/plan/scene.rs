@@ -45,6 +45,11 @@ impl<'a> Scene<'a> {
         self.recovery().is_some() || self.job.write.quantities.is_some()
     }
 
+    /// Whether the scene says what is looked at inside the component.
+    pub(super) fn looks_at_outputs(&self) -> bool {
+        self.stated().is_some_and(|stated| stated.outputs.is_some())
+    }
+
     /// The recovery that the job asks for, otherwise that of the nodes at which its scene looks.
     pub(super) fn recovery(&self) -> Option<RecoveryJob> {
         let of_scene = || Some(self.stated?.outputs.as_ref()?.recovery());

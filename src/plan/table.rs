@@ -160,10 +160,13 @@ pub const RULES: [Rule; 30] = [
     },
     Rule {
         id: RuleId::K20,
-        leaves_out: "columns of the basis that others span",
-        kind: Kind::Always,
-        because: "the space is the same without them",
-        guard: "what is left of each is named; M-14: the modes are still eigenpairs of the reduced model",
+        leaves_out: "modes that nothing starts and nothing sees, where the scene chooses the modes or names outputs; columns of the basis that \
+                     others span, always",
+        kind: Kind::WithinBars,
+        because: "a mode at rest at the interface, without reaction there, on which no load does work, is uncoupled from all other \
+                  coordinates: it stays at rest. A space is the same without columns that others span",
+        guard: "M-35: what starts or sees each of them, and what the reduced matrices tie it to, against rounding; M-14: the modes are still \
+                eigenpairs of the reduced model",
         decide: decide::k20,
     },
     Rule {

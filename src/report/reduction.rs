@@ -37,14 +37,14 @@ pub struct ReductionReport {
     /// Loads that the superelement carries by name; absent where there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub loads: Vec<LoadReport>,
-    /// Coordinates that were left out because others span them.
+    /// Coordinates that were left out: others span them, or nothing starts and nothing sees them.
     pub dropped: Vec<DroppedCoordinate>,
     /// What the scene let the run leave out; nothing where it asks for everything.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub skipped: Vec<SkippedReport>,
     /// The elastic modes in ascending order.
     pub modes: Vec<ModeRow>,
-    /// Numbers of the kept modes that interface, outputs and loads neither excite nor observe, from one.
+    /// Numbers of the modes that interface, outputs and loads neither excite nor observe, from one.
     pub unseen: Vec<usize>,
 }
 

@@ -59,6 +59,8 @@ pub enum Recorded {
     WithCount,
     /// Where a load has a residual vector, kept or left out.
     WithResidualVector,
+    /// Where modes are left out because nothing starts or sees them.
+    WithUnseenModes,
     /// Where the job asks for damping.
     WithDamping,
     /// Where the scene accepts an error of this kind.
@@ -478,5 +480,13 @@ pub const CATALOGUE: &[Entry] = &[
         "The largest error of the internal loads under a harmonic force on an interface dof, over the band, in the norm of the strain \
          energy, against what the scene accepts. There is no margin.",
         "As for M-29.",
+    ),
+    line(
+        "M-35",
+        Proof::Measured,
+        Recorded::WithUnseenModes,
+        "Modes that the superelement leaves out stay at rest: what each does at the interface, at outputs and under loads and gravity, over \
+         the largest of a mode, and what mass, damping and further matrices tie it to. Against the job: both by modes found again.",
+        "`--no-skip` keeps them. In a file: a mode was taken out that something starts or sees.",
     ),
 ];

@@ -15,6 +15,10 @@ pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
         Mending::Restart => ", after a restart",
         Mending::Slices => ", after slicing the band",
     };
+    let left_out = match evidence.unseen.len() {
+        0 => String::new(),
+        n => format!(" ({} in the superelement, {n} left out)", certificate.n_found.saturating_sub(n)),
+    };
     Some(Check {
         id: "M-06",
         name: "no mode is missing",
@@ -23,7 +27,7 @@ pub(super) fn count(evidence: &Evidence<'_>) -> Option<Check> {
         limits: Limits::default(),
         fail_above: 0.0,
         worst: Some(format!(
-            "counted {}, found {}{mended}; {} with the interface held, {} free; pivot growth {:.1}; doubt {} (limit 1)",
+            "counted {}, found {}{left_out}{mended}; {} with the interface held, {} free; pivot growth {:.1}; doubt {} (limit 1)",
             certificate.n_counted,
             certificate.n_found,
             certificate.count.clamped,

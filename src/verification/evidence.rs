@@ -15,6 +15,7 @@ use crate::reduction::{Reduction, transpose_apply};
 use crate::rigid::{InterfaceRank, RigidBodyModes};
 use crate::rubin::Rubin;
 use crate::sparse::product;
+use crate::unseen::UnseenMode;
 
 use super::enclosure::Enclosures;
 
@@ -47,6 +48,8 @@ pub struct Evidence<'a> {
     pub rubin: Option<&'a Rubin>,
     /// Ĉ, where the job asks for damping.
     pub damping: Option<&'a Damping>,
+    /// The modes that the superelement leaves out.
+    pub unseen: &'a [UnseenMode],
     /// The Sturm count, where one was asked for.
     pub certificate: Option<&'a Certificate>,
     /// The intervals that are proved to hold the modes, where they were asked for.

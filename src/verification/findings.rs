@@ -7,7 +7,7 @@ use super::loads::{self, EffectiveMasses};
 use super::rigid_body::{self, MassRoutes};
 use super::{
     attached, attachment, completeness, conditioning, damping, eigenpairs, enclosed, mass, named_loads, probes,
-    reduced, rigid_motion, solves, spectrum,
+    reduced, rigid_motion, solves, spectrum, unseen,
 };
 use crate::error::Result;
 
@@ -94,6 +94,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(named_loads::checks(evidence, load_lacking.as_deref(), condition));
     checks.extend(damping::of_reduction(evidence, &rigid_motion::Disturbance::of(evidence, &spectrum)?)?);
     checks.extend(probes::stiffness(evidence).into_iter().chain(probes::mass(evidence)).chain(probes::parts(evidence)));
+    checks.extend(unseen::uncoupled(evidence));
     Ok(Findings {
         checks,
         rigid_body,

@@ -31,6 +31,7 @@ mod rigid_body;
 mod rigid_motion;
 mod solves;
 mod spectrum;
+pub(crate) mod unseen;
 
 pub use enclosure::{CountProof, Enclosures, enclosures, enclosures_where_asked};
 pub use evidence::Evidence;

@@ -53,6 +53,7 @@ pub fn with_evidence<T>(
         answers: None,
         rubin: None,
         damping: None,
+        unseen: &[],
         certificate: None,
         enclosures: None,
         expect: None,

@@ -21,5 +21,6 @@ mod rubin_free;
 #[cfg(feature = "hdf5")]
 mod same_bytes;
 mod told;
+mod unseen;
 
 use supel_testing::place;

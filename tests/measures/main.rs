@@ -3,6 +3,7 @@
 //! A fault is put into the evidence itself – a mode, a column of Ψ_S, an entry of K̂ – so that nothing but the checks can
 //! notice it: the checker is checked.
 
+mod clusters;
 mod digits;
 mod error_bars;
 mod facts;

@@ -9,9 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 use supel_runtime::{
-    CheckSummary, Coordinate, Direction, DroppedColumn, Generator, InterfaceDof, InterfaceNode, MassProperties, Matrix,
-    Metadata, Method, ModelSummary, Precision, RecoveredDof, Recovery, RigidBodyModes, Superelement, Tensors, Validity,
-    Verdict, Verification, mass_properties,
+    CheckSummary, Coordinate, Direction, DropCause, DroppedColumn, Generator, InterfaceDof, InterfaceNode,
+    MassProperties, Matrix, Metadata, Method, ModelSummary, Precision, RecoveredDof, Recovery, RigidBodyModes,
+    Superelement, Tensors, Validity, Verdict, Verification, mass_properties,
 };
 
 const POSITION: [f64; 3] = [0.5, -0.25, 2.0];
@@ -101,6 +101,7 @@ pub fn complete_parts() -> (Tensors, Metadata) {
         .map(|index| DroppedColumn {
             column: Coordinate::InertiaRelief { index },
             reason: "spanned by the elastic modes".into(),
+            cause: DropCause::Spanned,
         })
         .collect();
     metadata.validity.band_hz = Some([0.0, 20.0]);

@@ -19,7 +19,7 @@ use super::scaled::Scaled;
 use crate::audit::named_modes::{WithInverse, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR};
 
-/// Weight of recovered rows relative to all others: in single precision they have seven digits, which may decide on what nothing else
+/// Weight of recovered rows and further matrices relative to all others: in single precision they have seven digits, which may decide on what nothing else
 /// sees and on nothing more.
 const RECOVERED: f64 = 1e-3;
 
@@ -131,7 +131,7 @@ fn groups(named: &[Named], of_modes: &[Range<usize>]) -> Vec<Vec<usize>> {
     [rigid, relief].into_iter().chain(modes).chain([expansion, residual]).filter(|group| !group.is_empty()).collect()
 }
 
-/// What interface, gravity, rigid-body motion and recovered rows see of the columns made again, and of the named ones of the file;
+/// What interface, gravity, rigid-body motion, recovered rows and further matrices see of the columns made again, and of the named ones of the file;
 /// f × n_N and f × n_η.
 fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -> [Mat<f64>; 2] {
     let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), file.n_modal());
@@ -159,6 +159,15 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
         // Where no column moves a load or a row, all that is seen there is what the columns may be off by.
         if modal.norm_max() > known.errors[p..].iter().copied().fold(0.0, f64::max) {
             add(weight / modal.norm_max(), [modal, of_file(stored)]);
+        }
+    }
+    // What damping and further matrices tie to the interface tells the signs of modes that nothing else sees.
+    for (known, stored) in projected.matrices.iter().zip(&file.matrices) {
+        let of_probes = |a: MatRef<'_, f64>| a.submatrix(0, p, p, n_named).to_owned();
+        let (modal, errors) = (of_probes(known.matrix.as_ref()), of_probes(known.errors.as_ref()));
+        if modal.norm_max() > errors.norm_max() {
+            let tied = dense::product(projected.probes.transpose(), stored.as_ref().subrows(0, file.n_b));
+            add(RECOVERED / modal.norm_max(), [modal, of_file(&tied)]);
         }
     }
     let [mine, stored] = [0, 1].map(|which| stacked(pairs.iter().map(|pair| pair[which].as_ref()).collect()));

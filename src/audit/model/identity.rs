@@ -1,6 +1,6 @@
 //! Whether file and job describe the same component: M-26, M-06.
 
-use supel_runtime::{Coordinate, RigidBodyModes, Superelement};
+use supel_runtime::{Coordinate, DropCause, RigidBodyModes, Superelement};
 
 use super::asked::AskedModes;
 use super::columns::Named;
@@ -121,21 +121,26 @@ pub(super) fn n_modes(superelement: &Superelement, asked: &AskedModes) -> Check 
         value: stored.abs_diff(expected) as f64,
         limits: Limits::default(),
         fail_above: 0.0,
-        worst: Some(format!("{expected} asked for, {stored} stated")),
+        worst: Some(format!("{expected} asked for, {stored} stated{}", left_out(superelement))),
+    }
+}
+
+/// How many of the modes stated have no coordinate because nothing starts or sees them, in words.
+fn left_out(superelement: &Superelement) -> String {
+    match superelement.metadata().unseen_modes().count() {
+        0 => String::new(),
+        n => format!(", {n} of them left out of the coordinates"),
     }
 }
 
 /// The places of the file's modal coordinates among the columns made again, where both are of the same kinds.
 pub(super) fn places(superelement: &Superelement, projected: &Projected, boundary: Boundary) -> Option<Vec<usize>> {
     let coordinates = &superelement.metadata().coordinates[superelement.n_interface()..];
-    let place = |coordinate: &Coordinate| {
-        let named = named(coordinate, boundary)?;
-        projected.named.iter().position(|known| *known == named)
-    };
+    let place = |coordinate: &Coordinate| projected.place_of(named(coordinate, boundary)?);
     coordinates.iter().map(place).collect()
 }
 
-fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
+pub(super) fn named(coordinate: &Coordinate, boundary: Boundary) -> Option<Named> {
     match (coordinate, boundary) {
         (Coordinate::RigidBodyMode { index }, _) => Some(Named::Rigid(*index)),
         (Coordinate::InertiaRelief { index }, _) => Some(Named::Relief(*index)),
@@ -189,7 +194,8 @@ pub(super) fn dropped(
     const LEFT: f64 = 1e-6;
     /// The most that rounding excuses: a column of which a hundredth is left is another one.
     const LARGEST_LEFT: f64 = 1e-2;
-    let columns = &superelement.metadata().dropped;
+    let dropped = superelement.metadata().dropped.iter();
+    let columns: Vec<_> = dropped.filter(|column| column.cause == DropCause::Spanned).collect();
     if columns.is_empty() {
         return None;
     }
@@ -200,7 +206,7 @@ pub(super) fn dropped(
     let (mut worst, mut rounding) = ((0.0, None), 0.0f64);
     for column in columns.iter().filter(|_| !is_complete) {
         let named = named(&column.column, boundary)?;
-        let at = projected.named.iter().position(|known| *known == named)?;
+        let at = projected.place_of(named)?;
         let n_others = kept.partition_point(|other| *other < at);
         rounding = rounding.max(projected.rounding_of_share(at, &kept[..n_others]));
         // What lies within the error of the column is not known to be there.

@@ -136,6 +136,11 @@ impl Projected {
         }
     }
 
+    /// The place of a named column.
+    pub(super) fn place_of(&self, named: Named) -> Option<usize> {
+        self.named.iter().position(|known| *known == named)
+    }
+
     /// What M̂ has to be on the columns.
     pub(super) fn reduced_mass(&self) -> &Form {
         self.modal_mass.as_ref().unwrap_or(&self.mass)

@@ -1,4 +1,4 @@
-//! The interface and what it separates. K-6 to K-10, K-20 to K-22.
+//! The interface and what it separates. K-6 to K-10, K-21, K-22.
 
 use crate::job::DofUse;
 use crate::number::counted;
@@ -111,10 +111,6 @@ pub(in crate::plan) fn k10(scene: &Scene<'_>, _: Option<&Facts>) -> Decision {
             names.join(", ")
         )),
     }
-}
-
-pub(in crate::plan) fn k20(_: &Scene<'_>, _: Option<&Facts>) -> Decision {
-    Decision::left_out("columns that others span, each by name")
 }
 
 pub(in crate::plan) fn k21(_: &Scene<'_>, facts: Option<&Facts>) -> Decision {

@@ -220,7 +220,8 @@ fn leave_out_interface(_: &mut Tensors, metadata: &mut Metadata) -> bool {
     let Some(column) = metadata.coordinates.first().filter(|coordinate| coordinate.is_interface()).cloned() else {
         return false;
     };
-    metadata.dropped.push(supel_runtime::DroppedColumn { column, reason: "for no reason".to_owned() });
+    let cause = supel_runtime::DropCause::Spanned;
+    metadata.dropped.push(supel_runtime::DroppedColumn { column, reason: "for no reason".to_owned(), cause });
     true
 }
 
@@ -719,6 +720,17 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
             let Some(last) = last_modal(m) else { return false };
             keep(t, m, &(0..last).collect::<Vec<_>>());
             true
+        },
+    },
+    Alteration {
+        field: "dropped[].cause",
+        what: "said to be a mode that nothing sees",
+        alter: |_, m| {
+            let dropped = m.dropped.first_mut();
+            dropped.is_some_and(|dropped| {
+                dropped.cause = supel_runtime::DropCause::Unseen;
+                true
+            })
         },
     },
     Alteration { field: "dropped[].column.node", what: INTERFACE_LEFT_OUT, alter: leave_out_interface },
