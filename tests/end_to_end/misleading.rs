@@ -112,3 +112,41 @@ fn stated_digits_replace_those_that_the_numbers_show() {
     let ended = ended.expect(ExitCode::CheckFailed);
     assert!(ended.out.contains("model.stiffness_digits"), "{}", ended.out);
 }
+
+/// A band between two frequencies of the full model, into which one of the reduced model has moved up: a resonance of the band that the
+/// component does not have.
+#[test]
+fn a_resonance_that_moved_into_the_band_is_no_empty_band() {
+    let place = Place::with_brick();
+    let ended = |modes: &str, band: [f64; 2]| {
+        let text = format!(
+            "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+             interface = [{{ name = \"a\", nodes = [1, 11, 31, 41] }}, {{ name = \"b\", nodes = [5, 15, 45] }}]\n\
+             reduction = {{ method = \"herting\", modes = {modes} }}\n\
+             scene = {{ band_hz = {band:?}, boundaries = [\"fix:a\"], accept = {{ frequency = 1e-3 }} }}\n\
+             write = {{ superelement = \"x.supel\" }}\n"
+        );
+        place.write("job.toml", text.as_bytes());
+        supel(&["reduce", &place.text("job.toml")])
+    };
+    let wide = ended("{ count = 1 }", [0.0, 2e4]);
+    assert!(matches!(wide.code, ExitCode::Done | ExitCode::CheckFailed), "{}", wide.err);
+    let report = place.report("x.report.json");
+    let pairs = report["body"]["preservation"]["boundaries"][0]["frequencies"].as_array().expect("pairs").clone();
+    let hertz = |at: usize, key: &str| pairs[at][key].as_f64().expect("a frequency");
+    let moved = (0..pairs.len() - 1)
+        .find(|at| {
+            let [full, reduced, next] = [hertz(*at, "full_hz"), hertz(*at, "reduced_hz"), hertz(at + 1, "full_hz")];
+            reduced > 1.003 * full && reduced < 0.99 * next
+        })
+        .expect("a mode that the reduction moves");
+    // The band begins between the frequencies of the two models, and ends below the next one.
+    let from = 0.5 * (hertz(moved, "full_hz") + hertz(moved, "reduced_hz"));
+    let band = [from, 0.5 * (hertz(moved, "reduced_hz") + hertz(moved + 1, "full_hz"))];
+    let ended = ended("{ count = 1 }", band);
+    assert_eq!(ended.code, ExitCode::CheckFailed, "{}", ended.out);
+    assert!(ended.out.contains("M-29"), "{}", ended.out);
+    let report = place.report("x.report.json");
+    let accuracy = report["body"]["preservation"]["accuracy"][0].to_string();
+    assert!(accuracy.contains(&format!("mode {}", moved + 1)), "{accuracy}");
+}

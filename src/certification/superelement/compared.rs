@@ -59,7 +59,7 @@ impl Compared<'_> {
         let pair = |(at, (full, error)): (usize, (&f64, &ModeError))| {
             let full_hz = hertz(*full);
             let reduced_hz = self.partners[at].map_or(f64::INFINITY, |partner| hertz(self.elastic()[partner]));
-            let in_band = (from..=to).contains(&full_hz);
+            let in_band = [full_hz, reduced_hz].iter().any(|hertz| (from..=to).contains(hertz));
             let full_error_bar_hz = error.bar_of(full_hz);
             let relative_difference = reduced_hz / full_hz - 1.0;
             FrequencyPair { full_hz, full_error_bar_hz, reduced_hz, relative_difference, in_band }

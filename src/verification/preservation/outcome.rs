@@ -95,7 +95,7 @@ pub struct FrequencyPair {
     pub reduced_hz: f64,
     /// Reduced / full − 1.
     pub relative_difference: f64,
-    /// Whether it lies in the band that the reduction is meant for.
+    /// Whether it lies in the band that the reduction is meant for, in either model.
     pub in_band: bool,
 }
 

@@ -303,12 +303,14 @@ impl FullResponse {
     }
 }
 
-/// Largest relative distance of a resonance in the band in both models: with light damping the peaks lie at the
+/// Largest relative distance of a resonance that lies in the band in either model: with light damping the peaks lie at the
 /// eigenvalues.
 fn peak_shift(evidence: &Evidence<'_>, full: &Spectral, reduced: &Spectral, band_hz: [f64; 2]) -> f64 {
     let [full, reduced] = [full, reduced].map(|spectral| samples::elastic_hz(evidence, spectral));
-    let in_band = full.iter().enumerate().filter(|(_, hz)| (band_hz[0]..=band_hz[1]).contains(*hz));
-    let shift = |(j, hz): (usize, &f64)| (reduced.get(j).copied().unwrap_or(f64::INFINITY) / hz - 1.0).abs();
+    let partner = |j: usize| reduced.get(j).copied().unwrap_or(f64::INFINITY);
+    let is_inside = |hertz: f64| (band_hz[0]..=band_hz[1]).contains(&hertz);
+    let in_band = full.iter().enumerate().filter(|(j, hz)| is_inside(**hz) || is_inside(partner(*j)));
+    let shift = |(j, hz): (usize, &f64)| (partner(j) / hz - 1.0).abs();
     in_band.map(shift).fold(0.0, |worst, shift| if dense::worse(shift, worst) { shift } else { worst })
 }
 
