@@ -1,5 +1,6 @@
 //! The plan of a run: the job as its scene needs it, and what each rule decides.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use supel_runtime::Flag;
@@ -16,6 +17,8 @@ use crate::job::{Certify, Job, ModeSelection, ModesJob, SceneJob};
 pub struct Plan {
     given: Job,
     job: Job,
+    /// What the scene says of interface dofs, as far as this run heeds it.
+    statements: Option<SceneJob>,
     facts: Option<Facts>,
 }
 
@@ -31,8 +34,9 @@ pub struct Row {
 impl Plan {
     /// The plan of a job, before anything is read.
     pub fn of(given: &Job) -> Self {
-        let job = rules::needed(&Scene::of(given));
-        Self { given: given.clone(), job, facts: None }
+        let scene = Scene::of(given);
+        let statements = scene.statements().filter(|stated| stated.has_statements()).map(Cow::into_owned);
+        Self { given: given.clone(), job: rules::needed(&scene), statements, facts: None }
     }
 
     /// The plan once the model is known.
@@ -89,9 +93,9 @@ impl Plan {
         self.facts.as_ref()
     }
 
-    /// What the scene says of interface dofs, where it is heeded.
+    /// What the scene says of interface dofs, as far as this run heeds it; none where that is nothing.
     pub fn statements(&self) -> Option<&SceneJob> {
-        self.scene().stated().filter(|stated| stated.has_statements())
+        self.statements.as_ref()
     }
 
     /// What the superelement takes for granted of the simulation, one sentence each: what the job states, and what the scene lets a run leave
