@@ -1562,6 +1562,24 @@ pub enum Error {
         /// What the scene says of it.
         of: &'static str,
     },
+    /// A mass or springs act on an interface that moves in a direction which is none of its dofs.
+    #[entry(
+        "E-BOUNDARY-DOFS",
+        Usage,
+        "make every translation of it a dof of the interface, or compare another boundary"
+    )]
+    #[error(
+        "scene.boundaries: `{boundary}` acts along every translation of {name} – found {left_out} left out of its dofs, by `dofs` or by the scene – \
+        expected all of them – make them dofs of the interface, or compare another boundary"
+    )]
+    BoundaryDofs {
+        /// What the scene says.
+        boundary: String,
+        /// The interface.
+        name: String,
+        /// The directions that it lacks.
+        left_out: String,
+    },
     /// A static analysis is asked for together with something that moves.
     #[entry("E-SCENE-STATIC", Usage, "leave out the key, or ask for another analysis")]
     #[error("scene.{key}: a static analysis has nothing that moves – leave out the key, or ask for another analysis")]

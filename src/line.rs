@@ -69,6 +69,8 @@ pub(crate) fn prepared(
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::in_scene(model, &interfaces, held, (plan.statements(), plan.parting()))?;
+    let supports = job.scene.as_ref().and_then(|scene| scene.boundaries.as_deref());
+    partition.refuse_partly_loaded(supports.unwrap_or_default())?;
     (partition.recovered, partition.outputs) = (recovered, outputs);
     partition.quantities = Quantities::carried(quantities, &partition.transformation);
     partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;

@@ -30,6 +30,7 @@ mod gravity;
 mod held;
 mod interface;
 mod interface_node;
+mod internal_directions;
 mod keys;
 mod load;
 mod metis;
