@@ -1562,6 +1562,18 @@ pub enum Error {
         /// What the scene says of it.
         of: &'static str,
     },
+    /// A load of the job acts on what the scene says is unloaded.
+    #[entry("E-SCENE-LOAD", Usage, "take it out of what is unloaded, or leave the load off it")]
+    #[error(
+        "load {load}: found a force on {found} – expected none, as the scene says that no load acts there – take it out of what is unloaded, \
+        or leave the load off it"
+    )]
+    SceneLoad {
+        /// The load.
+        load: String,
+        /// Interface dofs on which it acts.
+        found: String,
+    },
     /// A mass or springs act on an interface that moves in a direction which is none of its dofs.
     #[entry(
         "E-BOUNDARY-DOFS",

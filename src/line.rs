@@ -14,7 +14,7 @@ use crate::model::{self, Model};
 use crate::modes::{Component, Retained, Search, StaticSet};
 use crate::outcome::Outcome;
 use crate::output::{self, Results};
-use crate::partition::{self, CarriedMatrix, Expansion, Loads, Partition, Quantities};
+use crate::partition::{self, CarriedMatrix, Expansion, Partition, Quantities};
 use crate::plan::{Mass, Modes, Plan};
 use crate::random::SEED;
 use crate::reduction::Reduction;
@@ -74,7 +74,7 @@ pub(crate) fn prepared(
     (partition.recovered, partition.outputs) = (recovered, outputs);
     partition.quantities = Quantities::carried(quantities, &partition.transformation);
     partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
-    partition.loads = Loads::carried(loads, &partition.transformation)?;
+    partition.carry_loads(loads, &job.loads)?;
     if let Some(modes) = modes {
         partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
     }

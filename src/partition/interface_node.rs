@@ -2,6 +2,7 @@
 
 use super::axes::Frame;
 use super::fitted::Fit;
+use super::unloaded::Unloaded;
 use crate::dofs::Direction;
 use crate::job::Coupling;
 
@@ -80,12 +81,14 @@ pub(super) struct Interfaces {
     pub(super) list: Vec<Resolved>,
     /// How many have coordinates.
     pub(super) n_kept: usize,
+    /// What the scene says that no load acts on.
+    pub(super) unloaded: Unloaded,
 }
 
 impl Interfaces {
     /// Interfaces of which the scene says nothing.
     pub(super) fn all(list: Vec<Resolved>) -> Self {
-        Self { n_kept: list.len(), list }
+        Self { n_kept: list.len(), list, unloaded: Unloaded::default() }
     }
 
     /// The nodes that have coordinates, and the others.

@@ -86,3 +86,39 @@ fn boundaries_that_could_act_in_some_directions_alone() {
     let text = made.report["body"]["preservation"]["boundaries"].to_string();
     assert!(text.contains("but not along ux"), "{text}");
 }
+
+/// A load on what the scene says is unloaded would make its file say two things.
+#[test]
+fn loads_on_what_is_unloaded() {
+    let of = |interfaces: &'static str, scene: &'static str, load: &str| {
+        let rest: &'static str = Box::leak(format!("[[load]]\nname = \"pull\"\n{load}\n").into_boxed_str());
+        Case { rest, ..Case::new(interfaces, CRAIG_BAMPTON, scene) }
+    };
+    const TIP: &str = "nodes = [7, 28, 63]\nforce = [1, 0, 0]";
+    let refused = [
+        (PATCHES, "unloaded = [\"tip.ux\"]", TIP, "on tip.ux –"),
+        (PATCHES, "unloaded = [\"tip\"]", TIP, "on tip.ux,"),
+        (PATCH_AND_NODES, "unloaded = [\"tip.ux\"]", TIP, "on tip.ux,"),
+        (PATCH_AND_NODES, "connected = [\"root\"]", "nodes = [28]\nforce = [0, 2, 0]", "on tip.uy –"),
+    ];
+    for (interfaces, scene, load, words) in refused {
+        let case = of(interfaces, scene, load);
+        let (place, ended) = case.run(&[]);
+        let ended = ended.expect(ExitCode::Usage);
+        let words = ["E-SCENE-LOAD", "load pull", words];
+        // The moment of three nodes about the mean of the patch is there as well, where rotations are unloaded.
+        words.iter().for_each(|words| assert!(ended.err.contains(words), "{scene}: {}", ended.err));
+        assert!(!place.path("x.supel").exists());
+        // Where nothing is left out they are coordinates, and the file claims nothing of them.
+        case.made_with(&["--no-skip"]);
+    }
+    let heeded = [
+        (PATCHES, "unloaded = [\"tip.uz\"]", TIP),
+        (PATCH_AND_NODES, "unloaded = [\"tip.uy\"]", TIP),
+        (PATCHES, "unloaded = [\"tip.ux\"]", "rotation = { axis = [0, 0, 1] }"),
+        (PATCHES, "unloaded = [\"tip.ux\"]", "nodes = [4]\nforce = [1, 0, 0]"),
+    ];
+    for (interfaces, scene, load) in heeded {
+        of(interfaces, scene, load).made();
+    }
+}
