@@ -1562,11 +1562,37 @@ pub enum Error {
         /// What the scene says of it.
         of: &'static str,
     },
+    /// The scene has gravity along another direction than the superelement whose matrices are reduced.
+    #[entry("E-ASSUMED-GRAVITY", Usage, "reduce the full model for this direction of gravity")]
+    #[error(
+        "scene.gravity has another direction than that of the superelement whose matrices are reduced – found ({}, {}, {}) – expected ({}, {}, {}) \
+        or none – reduce the full model for this direction of gravity",
+        gravity[0], gravity[1], gravity[2], assumed[0], assumed[1], assumed[2]
+    )]
+    AssumedGravity {
+        /// The direction of the scene.
+        gravity: [f64; 3],
+        /// That of the model, zero where there is none.
+        assumed: [f64; 3],
+    },
+    /// A job of a superelement does not say what that takes for granted.
+    #[entry("E-ASSUMED", Usage, "use the job that `supel export` writes, or `supel reduce FILE.supel`")]
+    #[error(
+        "{}: takes for granted: {sentence} – found nothing of it in `model.assumes` – expected it there, so that the new file says it as well – use \
+        the job that `supel export` writes, or `supel reduce FILE.supel`",
+        path.display()
+    )]
+    AssumedUnsaid {
+        /// The superelement.
+        path: PathBuf,
+        /// What it takes for granted.
+        sentence: String,
+    },
     /// A load of the job acts on what the scene says is unloaded.
     #[entry("E-SCENE-LOAD", Usage, "take it out of what is unloaded, or leave the load off it")]
     #[error(
-        "load {load}: found a force on {found} – expected none, as the scene says that no load acts there – take it out of what is unloaded, \
-        or leave the load off it"
+        "load {load} acts on what the scene says is unloaded – found a force on {found} – expected none – take it out of what is unloaded, or \
+        leave the load off it"
     )]
     SceneLoad {
         /// The load.

@@ -1,15 +1,14 @@
 //! Why a node of an interface lacks a direction, by the job that the file keeps.
 
-use supel_runtime::Direction;
+use supel_runtime::{Direction, Superelement};
 
-use super::component::Component;
 use crate::audit::kept_job;
-use crate::job::{DofUse, FixedJob, Job, NodeSelection};
+use crate::job::{DofUse, FixedJob, InterfacePart, Job, NodeSelection};
 use crate::plan::Plan;
 
 /// Why a node lacks a direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Absence {
+pub enum Absence {
     /// It is at rest there: so is whatever is connected to it.
     AtRest,
     /// It moves there, and the interface was made without it, or nobody knows: nothing can act on it.
@@ -18,22 +17,33 @@ pub(super) enum Absence {
     NotThere,
 }
 
-impl Component {
-    /// Why an interface node, by its number, lacks a direction.
-    pub(super) fn absence(&self, node: usize, direction: Direction) -> Absence {
-        let node = &self.superelement.metadata().interface_nodes[node];
-        let Some(job) = kept_job(&self.superelement) else { return Absence::LeftOut };
-        let dof = (node.name.as_str(), Some(direction));
-        let of_scene = Plan::of(&job).statements().map(|scene| scene.use_of(&job.interfaces, dof));
-        match of_scene.unwrap_or(DofUse::Connected) {
-            DofUse::Grounded => Absence::AtRest,
-            DofUse::Unloaded => Absence::LeftOut,
-            DofUse::Connected | DofUse::Prescribed(_) => of_interface(&job, (&node.name, node.label), direction),
+/// Why an interface node, by its number, lacks a direction.
+pub fn absence(superelement: &Superelement, node: usize, direction: Direction) -> Absence {
+    let node = &superelement.metadata().interface_nodes[node];
+    let Some(job) = kept_job(superelement) else { return Absence::LeftOut };
+    let dof = (node.name.as_str(), Some(direction));
+    let of_scene = Plan::of(&job).statements().map(|scene| scene.use_of(&job.interfaces, dof));
+    match of_scene.unwrap_or(DofUse::Connected) {
+        DofUse::Grounded => Absence::AtRest,
+        DofUse::Unloaded => Absence::LeftOut,
+        DofUse::Connected | DofUse::Prescribed(_) => {
+            of_model(&job, dof).unwrap_or_else(|| of_interface(&job, (&node.name, node.label), direction))
         }
     }
 }
 
-/// Why an interface of which the scene says nothing lacks a direction.
+/// What the superelement whose matrices were reduced says of the direction.
+fn of_model(job: &Job, (name, direction): (&str, Option<Direction>)) -> Option<Absence> {
+    let assumes = job.model.assumes.as_ref()?;
+    let is_listed = |parts: &[InterfacePart]| {
+        let named = |part: &InterfacePart| part.of(|other| other == name).is_some_and(|(_, own)| own == direction);
+        parts.iter().any(named)
+    };
+    let of_lists = [(&assumes.at_rest, Absence::AtRest), (&assumes.left_out, Absence::LeftOut)];
+    of_lists.into_iter().find_map(|(parts, absence)| is_listed(parts).then_some(absence))
+}
+
+/// Why an interface of which neither scene nor model says anything lacks a direction.
 fn of_interface(job: &Job, (name, label): (&str, Option<i64>), direction: Direction) -> Absence {
     let interface = job.interfaces.iter().find(|interface| interface.name == name);
     let is_listed = |dofs: &Vec<Direction>| dofs.contains(&direction);

@@ -6,7 +6,7 @@ use faer::Mat;
 use serde::Serialize;
 use supel_runtime::Direction;
 
-use super::absence::Absence;
+use super::absence::{Absence, absence};
 use super::component::Component;
 use super::joint::{Pair, pairs, turned};
 use super::place::Place;
@@ -220,7 +220,8 @@ impl Assembly {
     /// Whether a mass at a place has a direction in which it moves and would not be carried.
     fn lacks(&self, place: &Place, direction: Direction) -> bool {
         let has_translation = place.dofs.iter().any(|(d, _)| d.is_some_and(|d| !d.is_rotation()));
-        let absence = place.whole.map(|node| self.components[place.component].absence(node, direction));
+        let superelement = &self.components[place.component].superelement;
+        let absence = place.whole.map(|node| absence(superelement, node, direction));
         place.coordinate(Some(direction)).is_none()
             && match absence {
                 Some(Absence::AtRest) => false,

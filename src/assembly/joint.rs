@@ -2,7 +2,7 @@
 
 use supel_runtime::Direction;
 
-use super::absence::Absence;
+use super::absence::{Absence, absence};
 use super::component::{Component, distance};
 use super::place::Place;
 use crate::error::{Error, Result};
@@ -110,7 +110,7 @@ fn at_rest(components: &[Component], of: &Place, with: &Place) -> Vec<(Direction
     let Some(node) = with.whole else { return Vec::new() };
     let is_at_rest = |direction: Direction| {
         let is_absent = with.coordinate(Some(direction)).is_none();
-        is_absent && components[with.component].absence(node, direction) == Absence::AtRest
+        is_absent && absence(&components[with.component].superelement, node, direction) == Absence::AtRest
     };
     let own = of.dofs.iter().filter_map(|(direction, at)| Some(((*direction)?, *at)));
     own.filter(|(direction, _)| is_at_rest(*direction)).collect()

@@ -25,6 +25,7 @@ mod selection;
 mod spectrum;
 mod storage;
 
+pub use absence::{Absence, absence};
 pub use assembly::{Assembly, Held, Joint, Loaded, PointMass};
 pub use component::Component;
 pub use joined_model::{JoinedModel, JoinedNode, JoinedRow, JoinedSelection, Members};

@@ -99,14 +99,17 @@ impl Plan {
     }
 
     /// What the superelement takes for granted of the simulation, one sentence each: what the job states, and what the scene lets a run leave
-    /// out.
+    /// out. A superelement that is reduced again may have taken the same for granted.
     pub fn assumptions(&self) -> Vec<String> {
-        self.job.assumptions().into_iter().chain(rules::assumptions(&self.scene())).collect()
+        let mut said = BTreeSet::new();
+        let all = self.job.assumptions().into_iter().chain(rules::assumptions(&self.scene()));
+        all.filter(|sentence| said.insert(sentence.clone())).collect()
     }
 
     /// Along what alone gravity may act, in axes of the model, zero where it may not act; none where it may act along anything.
     pub fn gravity(&self) -> Option<[f64; 3]> {
-        rules::gravity(&self.scene())
+        let assumed = self.job.model.assumes.as_ref().and_then(|assumes| assumes.gravity);
+        rules::gravity(&self.scene()).or(assumed)
     }
 
     /// Whether dofs of the component are held at rest, by the job or by its scene.
