@@ -91,11 +91,11 @@ impl Interfaces {
         Self { n_kept: list.len(), list, unloaded: Unloaded::default() }
     }
 
-    /// The nodes that have coordinates, and the others.
-    pub(super) fn into_nodes(self) -> [Vec<InterfaceNode>; 2] {
+    /// The nodes that have coordinates, and the others; what is unloaded of all of them.
+    pub(super) fn into_nodes(self) -> ([Vec<InterfaceNode>; 2], Unloaded) {
         let mut nodes: Vec<InterfaceNode> = self.list.into_iter().map(|resolved| resolved.node).collect();
         let left_out = nodes.split_off(self.n_kept);
-        [nodes, left_out]
+        ([nodes, left_out], self.unloaded)
     }
 }
 

@@ -163,10 +163,9 @@ impl Partition {
     pub fn in_scene(
         model: Model,
         interfaces: &[InterfaceJob],
-        held: Held,
+        mut held: Held,
         (scene, parting): (Option<&SceneJob>, Parting),
     ) -> Result<Self> {
-        let mut held = held;
         let resolved = interface::resolve(&model, interfaces)?;
         held.refuse_interface(&model, &resolved)?;
         let far_origins = origin::far_origins(&model, &resolved)?;
@@ -185,8 +184,7 @@ impl Partition {
         facts.findings.extend(constrained);
         let gravity = gravity::gravity(&model, &transformation, &held);
         let followers = follower::followers(&model, &transformation);
-        let unloaded = resolved.unloaded.clone();
-        let [interface, left_out] = resolved.into_nodes();
+        let ([interface, left_out], unloaded) = resolved.into_nodes();
         let names = NodeNames([&interface, &left_out]);
         let turned = |stiffness| turned.added_to(stiffness, &transformation, names);
         let carried = Carried::of([model.stiffness, model.mass], &transformation, model.precision, turned)?;
