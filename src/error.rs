@@ -1614,6 +1614,62 @@ pub enum Error {
         /// What the scene says of it.
         of: &'static str,
     },
+    /// The scene has gravity along another direction than the superelement whose matrices are reduced.
+    #[entry("E-ASSUMED-GRAVITY", Usage, "reduce the full model for this direction of gravity")]
+    #[error(
+        "scene.gravity has another direction than that of the superelement whose matrices are reduced – found ({}, {}, {}) – expected ({}, {}, {}) \
+        or none – reduce the full model for this direction of gravity",
+        gravity[0], gravity[1], gravity[2], assumed[0], assumed[1], assumed[2]
+    )]
+    AssumedGravity {
+        /// The direction of the scene.
+        gravity: [f64; 3],
+        /// That of the model, zero where there is none.
+        assumed: [f64; 3],
+    },
+    /// A job of a superelement does not say what that takes for granted.
+    #[entry("E-ASSUMED", Usage, "use the job that `supel export` writes, or `supel reduce FILE.supel`")]
+    #[error(
+        "{}: takes for granted: {sentence} – found nothing of it in `model.assumes` – expected it there, so that the new file says it as well – use \
+        the job that `supel export` writes, or `supel reduce FILE.supel`",
+        path.display()
+    )]
+    AssumedUnsaid {
+        /// The superelement.
+        path: PathBuf,
+        /// What it takes for granted.
+        sentence: String,
+    },
+    /// A load of the job acts on what the scene says is unloaded.
+    #[entry("E-SCENE-LOAD", Usage, "take it out of what is unloaded, or leave the load off it")]
+    #[error(
+        "load {load} acts on what the scene says is unloaded – found a force on {found} – expected none – take it out of what is unloaded, or \
+        leave the load off it"
+    )]
+    SceneLoad {
+        /// The load.
+        load: String,
+        /// Interface dofs on which it acts.
+        found: String,
+    },
+    /// A mass or springs act on an interface that moves in a direction which is none of its dofs.
+    #[entry(
+        "E-BOUNDARY-DOFS",
+        Usage,
+        "make every translation of it a dof of the interface, or compare another boundary"
+    )]
+    #[error(
+        "scene.boundaries: `{boundary}` acts along every translation of {name} – found {left_out} left out of its dofs, by `dofs` or by the scene – \
+        expected all of them – make them dofs of the interface, or compare another boundary"
+    )]
+    BoundaryDofs {
+        /// What the scene says.
+        boundary: String,
+        /// The interface.
+        name: String,
+        /// The directions that it lacks.
+        left_out: String,
+    },
     /// A static analysis is asked for together with something that moves.
     #[entry("E-SCENE-STATIC", Usage, "leave out the key, or ask for another analysis")]
     #[error("scene.{key}: a static analysis has nothing that moves – leave out the key, or ask for another analysis")]

@@ -6,6 +6,7 @@
 mod accept;
 mod added_mass;
 mod analysis;
+mod assumes;
 mod carrier;
 mod damping;
 mod document;
@@ -41,6 +42,7 @@ pub use crate::eigen::Eigensolver;
 pub use accept::AcceptJob;
 pub use added_mass::AddedMassJob;
 pub use analysis::AnalysisJob;
+pub use assumes::AssumesJob;
 pub use carrier::CarrierJob;
 pub use damping::{ComponentDampingJob, MassActsOn, ModalDampingJob, RayleighJob, RigidMotionDamping};
 pub use document::Notation;

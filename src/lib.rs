@@ -175,6 +175,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
     let plan = Plan::of(job);
     // read → check → coordinates → partition
     let (facts, partition) = prepared(&plan, resources, observer)?;
+    input::refuse_unsaid(&job.model)?;
     // rigid-body modes → factor → constraint modes
     with_component(&plan, &partition, (resources, observer), |conditioned, observer| {
         // modes → certificate → basis → projection → enclosures → verification → preservation → output

@@ -14,7 +14,7 @@ use crate::model::{self, Model};
 use crate::modes::{Component, Retained, Search, StaticSet};
 use crate::outcome::Outcome;
 use crate::output::{self, Results};
-use crate::partition::{self, CarriedMatrix, Expansion, Loads, Partition, Quantities};
+use crate::partition::{self, CarriedMatrix, Expansion, Partition, Quantities};
 use crate::plan::{Mass, Modes, Plan};
 use crate::random::SEED;
 use crate::reduction::Reduction;
@@ -70,10 +70,12 @@ pub(crate) fn prepared(
     let weight = if is_weighed { model.weight() } else { None };
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::in_scene(model, &interfaces, held, (plan.statements(), plan.parting()))?;
+    let supports = job.scene.as_ref().and_then(|scene| scene.boundaries.as_deref());
+    partition.refuse_partly_loaded(supports.unwrap_or_default())?;
     (partition.recovered, partition.outputs) = (recovered, outputs);
     partition.quantities = Quantities::carried(quantities, &partition.transformation);
     partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
-    partition.loads = Loads::carried(loads, &partition.transformation)?;
+    partition.carry_loads(loads, &job.loads)?;
     if let Some(modes) = modes {
         partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
     }

@@ -6,6 +6,7 @@ use faer::Mat;
 use serde::Serialize;
 use supel_runtime::Direction;
 
+use super::absence::{Absence, absence};
 use super::component::Component;
 use super::joint::{Pair, pairs, turned};
 use super::place::Place;
@@ -126,6 +127,7 @@ impl Assembly {
         }
         self.joined.extend(&dofs);
         self.note_pairs(&pairs);
+        pairs.iter().for_each(|pair| self.rest_where_joined(pair));
         let distances = pairs.iter().filter_map(|pair| pair.distance);
         let distance = distances.reduce(f64::max);
         let sizes = [&of_a, &of_b].map(|places| self.components[places[0].component].size());
@@ -140,7 +142,7 @@ impl Assembly {
 
     /// Says which directions of joined nodes stay free, which positions nobody knows and which axes differ.
     fn note_pairs(&mut self, pairs: &[Pair]) {
-        let Some(Pair { a, b, dofs, distance }) = pairs.first() else { return };
+        let Some(Pair { a, b, dofs, at_rest, distance }) = pairs.first() else { return };
         if distance.is_none() {
             self.notes.push(format!("{} and {} have no positions that could be compared", a.name, b.name));
         }
@@ -150,13 +152,30 @@ impl Assembly {
             self.notes.push(format!("the axes of {a} and {b} are turned by {degrees} degrees against each other"));
         }
         for (one, other) in [(a, b), (b, a)] {
-            let is_free =
-                |(_, coordinate): &&(Option<Direction>, usize)| !dofs.iter().flatten().any(|c| c == coordinate);
+            let is_tied =
+                |at: usize| dofs.iter().flatten().chain(at_rest.iter().flatten().map(|(_, at)| at)).any(|c| *c == at);
+            let is_free = |(_, coordinate): &&(Option<Direction>, usize)| !is_tied(*coordinate);
             let free: Vec<String> =
                 one.dofs.iter().filter(is_free).filter_map(|(direction, _)| direction.map(|d| d.to_string())).collect();
             if !free.is_empty() {
                 let which = free.join(" ");
                 self.notes.push(format!("{}: {which} stay free, as {} does not have them", one.name, other.name));
+            }
+        }
+    }
+
+    /// Holds the directions of a node in which the node that it was joined with is at rest: the reduction took that for granted.
+    fn rest_where_joined(&mut self, pair: &Pair) {
+        let [of_a, of_b] = &pair.at_rest;
+        for (held, one, other) in [(of_a, &pair.a, &pair.b), (of_b, &pair.b, &pair.a)] {
+            if held.is_empty() {
+                continue;
+            }
+            let which: Vec<String> = held.iter().map(|(direction, _)| direction.to_string()).collect();
+            self.notes.push(format!("{}: {} at rest, as those of {} are", one.name, which.join(" "), other.name));
+            for (direction, at) in held {
+                self.held.push(Held { name: format!("{}.{direction}", one.name), n_dofs: 1 });
+                self.held_coordinates.insert(*at);
             }
         }
     }
@@ -176,7 +195,8 @@ impl Assembly {
     /// Puts a mass on `a.tip`, in equal parts on its nodes.
     ///
     /// # Errors
-    /// [`Error::AssemblyName`]; [`Error::PointMassDofs`] where a node has no dof that carries it.
+    /// [`Error::AssemblyName`]; [`Error::PointMassDofs`] where a node has no dof that carries it, or moves in a direction that its interface was
+    /// made without.
     pub fn load(&mut self, selection: &str, mass: PointMass) -> Result<()> {
         let places = self.places("--mass", selection)?;
         let share = 1.0 / places.len() as f64;
@@ -185,12 +205,8 @@ impl Assembly {
                 let of = if direction.is_rotation() { mass.inertia[direction.axis()] } else { mass.mass };
                 (direction, of * share)
             });
-            let has_translation = place.dofs.iter().any(|(d, _)| d.is_some_and(|d| !d.is_rotation()));
-            let lacks = |(direction, part): &(Direction, f64)| {
-                let is_carried = place.coordinate(Some(*direction)).is_some();
-                *part > 0.0 && !is_carried && (direction.is_rotation() || !has_translation)
-            };
-            if let Some((lacking, _)) = parts.iter().find(|part| lacks(part)) {
+            let lacks = |(direction, part): &&(Direction, f64)| *part > 0.0 && self.lacks(place, *direction);
+            if let Some((lacking, _)) = parts.iter().find(lacks) {
                 let (place, dofs) = (place.name.clone(), place.directions());
                 return Err(Error::PointMassDofs { place, lacking: lacking.to_string(), dofs });
             }
@@ -199,6 +215,20 @@ impl Assembly {
         }
         self.loaded.push(Loaded { name: selection.to_owned(), mass });
         Ok(())
+    }
+
+    /// Whether a mass at a place has a direction in which it moves and would not be carried.
+    fn lacks(&self, place: &Place, direction: Direction) -> bool {
+        let has_translation = place.dofs.iter().any(|(d, _)| d.is_some_and(|d| !d.is_rotation()));
+        let superelement = &self.components[place.component].superelement;
+        let absence = place.whole.map(|node| absence(superelement, node, direction));
+        place.coordinate(Some(direction)).is_none()
+            && match absence {
+                Some(Absence::AtRest) => false,
+                Some(Absence::LeftOut) => true,
+                // Where directions are named, these are meant.
+                Some(Absence::NotThere) | None => direction.is_rotation() || !has_translation,
+            }
     }
 
     pub(super) fn places(&self, flag: &'static str, text: &str) -> Result<Vec<Place>> {

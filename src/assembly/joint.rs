@@ -1,5 +1,8 @@
 //! Which node of one interface is joined with which of another, and whether the two may be.
 
+use supel_runtime::Direction;
+
+use super::absence::{Absence, absence};
 use super::component::{Component, distance};
 use super::place::Place;
 use crate::error::{Error, Result};
@@ -18,6 +21,8 @@ pub(super) struct Pair {
     pub(super) b: Place,
     /// Pairs of coordinates.
     pub(super) dofs: Vec<[usize; 2]>,
+    /// Directions of each of the two, with their coordinates, in which the other one is at rest.
+    pub(super) at_rest: [Vec<(Direction, usize)>; 2],
     /// How far the two are from each other, where they have positions.
     pub(super) distance: Option<f64>,
 }
@@ -64,7 +69,9 @@ pub(super) fn pairs(components: &[Component], (a, b): (&[Place], &[Place]), name
             }
             return Err(Error::JoinPosition { a: node.name.clone(), b: partner.name.clone(), distance, tolerance });
         }
-        pairs.push(Pair { a: node.clone(), b: partner.clone(), dofs: common_dofs(node, partner)?, distance });
+        let dofs = common_dofs(node, partner)?;
+        let at_rest = [(node, partner), (partner, node)].map(|(of, with)| at_rest(components, of, with));
+        pairs.push(Pair { a: node.clone(), b: partner.clone(), dofs, at_rest, distance });
     }
     Ok(pairs)
 }
@@ -96,6 +103,17 @@ fn common_dofs(a: &Place, b: &Place) -> Result<Vec<[usize; 2]>> {
         return Err(Error::JoinDofs { a: a.name.clone(), b: b.name.clone(), dofs });
     }
     Ok(common)
+}
+
+/// The directions of a node in which the node that it is joined with is at rest, with their coordinates.
+fn at_rest(components: &[Component], of: &Place, with: &Place) -> Vec<(Direction, usize)> {
+    let Some(node) = with.whole else { return Vec::new() };
+    let is_at_rest = |direction: Direction| {
+        let is_absent = with.coordinate(Some(direction)).is_none();
+        is_absent && absence(&components[with.component].superelement, node, direction) == Absence::AtRest
+    };
+    let own = of.dofs.iter().filter_map(|(direction, at)| Some(((*direction)?, *at)));
+    own.filter(|(direction, _)| is_at_rest(*direction)).collect()
 }
 
 /// By how many degrees the axes of two nodes are turned against each other; none where they are the same or nobody knows them.

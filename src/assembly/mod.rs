@@ -11,6 +11,7 @@
 //! lies above the one of the same number that is found here. From below they are bounded by what the files say of the modes that were left out
 //! ([`Omitted`]).
 
+mod absence;
 #[expect(clippy::module_inception, reason = "the assembly is what the folder makes")]
 mod assembly;
 mod component;
@@ -24,6 +25,7 @@ mod selection;
 mod spectrum;
 mod storage;
 
+pub use absence::{Absence, absence};
 pub use assembly::{Assembly, Held, Joint, Loaded, PointMass};
 pub use component::Component;
 pub use joined_model::{JoinedModel, JoinedNode, JoinedRow, JoinedSelection, Members};

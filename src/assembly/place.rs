@@ -13,6 +13,8 @@ pub(super) struct Place {
     pub(super) position: Option<[f64; 3]>,
     /// Its axes.
     pub(super) frame: Option<[[f64; 3]; 3]>,
+    /// Its number among the interface nodes of the component, where all of its directions are meant; none for a row.
+    pub(super) whole: Option<usize>,
     /// Its directions with the numbers of their coordinates in the assembly before anything is joined; a row has none.
     pub(super) dofs: Vec<(Option<Direction>, usize)>,
 }

@@ -73,7 +73,14 @@ impl Selector<'_> {
                 return Err(self.unknown(text, format!("{} has no interface row `{word}`", component.name), known, ""));
             };
             let name = format!("{}.rows:{row}", component.name);
-            Ok(Place { component: index, name, position: None, frame: None, dofs: vec![(None, first + at)] })
+            Ok(Place {
+                component: index,
+                name,
+                position: None,
+                frame: None,
+                whole: None,
+                dofs: vec![(None, first + at)],
+            })
         };
         rows.split(',').map(place).collect()
     }
@@ -137,7 +144,7 @@ fn nodes(component: &Component, (index, first): (usize, usize), wanted: &Wanted<
     let n_alike = all.iter().filter(|node| node.name == wanted.interface).count();
     let mut places = Vec::new();
     let mut at = first;
-    for (node, frame) in all.iter().zip(&superelement.tensors().interface_frames) {
+    for ((number, node), frame) in all.iter().enumerate().zip(&superelement.tensors().interface_frames) {
         let coordinates = node.dofs.iter().zip(at..);
         at += node.dofs.len();
         if node.name != wanted.interface || (wanted.label.is_some() && node.label != wanted.label) {
@@ -148,7 +155,9 @@ fn nodes(component: &Component, (index, first): (usize, usize), wanted: &Wanted<
         let label = node.label.filter(|_| n_alike > 1).map(|label| format!(".{label}")).unwrap_or_default();
         if !dofs.is_empty() {
             let name = format!("{}.{}{label}", component.name, node.name);
-            places.push(Place { component: index, name, position: Some(node.position), frame: Some(*frame), dofs });
+            let (position, frame) = (Some(node.position), Some(*frame));
+            let whole = wanted.direction.is_none().then_some(number);
+            places.push(Place { component: index, name, position, frame, whole, dofs });
         }
     }
     places

@@ -76,7 +76,7 @@ fn of_file(command: &ExportCommand, path: &Path) -> Result<Made> {
         units: metadata.units.clone(),
         what: format!("{}: {}, as recorded when it was made", shown(path), recorded(verdict)),
         source: ("superelement", json!({ "path": path, "blake3": sealed.digest })),
-        notes: Vec::new(),
+        notes: metadata.validity.assumptions.iter().map(|sentence| format!("takes for granted: {sentence}")).collect(),
     })
 }
 

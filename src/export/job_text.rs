@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use toml::Value;
 
 use super::names::Names;
+use crate::job::AssumesJob;
 use crate::report::printable;
 
 /// What a job says of the files of a model that stand next to it.
@@ -17,6 +18,8 @@ pub(super) struct JobText {
     /// Directions of rotations that supports hold alone.
     pub(super) held_rotations: Vec<String>,
     pub(super) digits: Option<i64>,
+    /// What the superelements take for granted.
+    pub(super) assumes: AssumesJob,
     pub(super) interfaces: Vec<Selection>,
     pub(super) fixed: Vec<Selection>,
     pub(super) loads: Vec<LoadColumn>,
@@ -123,6 +126,12 @@ impl JobText {
             put("held_rotations", self.held_rotations.clone().into());
         }
         self.digits.into_iter().for_each(|digits| put("stiffness_digits", digits.into()));
+        // Strings and numbers are always TOML.
+        let assumes = Some(&self.assumes).filter(|assumes| **assumes != AssumesJob::default());
+        assumes
+            .and_then(|assumes| Value::try_from(assumes).ok())
+            .into_iter()
+            .for_each(|assumes| put("assumes", assumes));
         self.interfaces.iter().for_each(|selection| text += &selection.render("interface"));
         self.fixed.iter().for_each(|selection| text += &selection.render("fixed"));
         for (column, LoadColumn { name, residual }) in self.loads.iter().enumerate() {

@@ -7,6 +7,7 @@ use faer::Mat;
 use supel_runtime::{Direction, Flag, Matrix, Superelement};
 use toml::Value;
 
+use super::assumed::assumed_by_all;
 use super::held_mechanism::is_held_and_gives_way;
 use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
@@ -39,6 +40,9 @@ impl Joined {
         let mut notes = assembly.notes.clone();
         notes.extend(assembly.joined_to_nothing().map(|name| format!("{name} is joined to nothing")));
         notes.extend(assembly.components.iter().filter_map(left_behind));
+        notes.extend(
+            assumed_by_all(assembly).sentences.into_iter().map(|sentence| format!("takes for granted: {sentence}")),
+        );
         let digits = stated_digits(assembly, &model)?;
         let without = without_job(assembly, &model, digits);
         let job = match without {
@@ -138,6 +142,7 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
         units: superelements().find_map(|superelement| superelement.metadata().units.clone()),
         held_rotations: held,
         digits,
+        assumes: assumed_by_all(assembly),
         interfaces: model.interfaces.iter().map(selection).collect(),
         fixed: model.fixed.iter().map(selection).collect(),
         loads: loads.map(|(name, residual)| LoadColumn { name: name.clone(), residual: *residual }).collect(),

@@ -3,6 +3,7 @@
 //! To add a format: its file, and its line in [`FORMATS`]. Numbers leave in the units of the model. No format verifies
 //! anything; what the file records of its verification is for the caller to say.
 
+mod assumed;
 mod format;
 mod held_mechanism;
 mod job_text;

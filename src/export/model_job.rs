@@ -7,6 +7,7 @@ use std::path::Path;
 use faer::Mat;
 use supel_runtime::{Coordinate, Flag, InterfaceNode, Matrix, Metadata, Method, Superelement};
 
+use super::assumed::assumed;
 use super::held_mechanism::is_held_and_gives_way;
 use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
@@ -63,6 +64,7 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
         units: superelement.metadata().units.clone(),
         held_rotations: held_rotations(superelement),
         digits,
+        assumes: assumed(superelement),
         interfaces: if has_map || labels.is_empty() {
             interfaces(superelement, &labels)
         } else {

@@ -130,7 +130,7 @@ pub use recorded::changed_role;
 pub use reduced_pair::ReducedPair;
 pub use single_matrix::{ReadSingle, SingleMatrix};
 pub use state_table::{StateRow, StateTable};
-pub use superelement_file::{is_superelement, superelement};
+pub use superelement_file::{is_superelement, refuse_unsaid, superelement};
 pub use value_unit::ValueUnit;
 
 use std::path::PathBuf;

@@ -26,7 +26,7 @@ use super::{MatrixInput, MatrixRole};
 use crate::dense;
 use crate::dofs::{Dof, DofMap, Nodes};
 use crate::error::{Error, Result};
-use crate::job::Layout;
+use crate::job::{AssumesJob, Layout, ModelJob};
 use crate::regular_file;
 
 /// What supel itself writes.
@@ -232,6 +232,28 @@ pub fn superelement(path: &Path) -> Result<(Superelement, Vec<u8>)> {
     let bytes = supel_runtime::file_bytes(path).map_err(failed)?;
     let superelement = Superelement::from_bytes(&bytes).map_err(failed)?;
     Ok((superelement, bytes))
+}
+
+/// Refuses the job of a superelement that does not say what that takes for granted.
+///
+/// # Errors
+/// [`Error::AssumedUnsaid`]; a file that cannot be read.
+pub fn refuse_unsaid(job: &ModelJob) -> Result<()> {
+    let path = split_member(&job.stiffness).0;
+    if !is_superelement(&path)? {
+        return Ok(());
+    }
+    let (superelement, _) = superelement(&path)?;
+    let validity = &superelement.metadata().validity;
+    let default = AssumesJob::default();
+    let said = job.assumes.as_ref().unwrap_or(&default);
+    let unsaid = validity.assumptions.iter().find(|sentence| !said.sentences.contains(sentence)).cloned();
+    let of_gravity = validity.gravity.filter(|gravity| said.gravity != Some(*gravity));
+    let of_gravity = of_gravity.map(|[x, y, z]| format!("gravity acts along ({x}, {y}, {z}) alone"));
+    match unsaid.or(of_gravity) {
+        Some(sentence) => Err(Error::AssumedUnsaid { path, sentence }),
+        None => Ok(()),
+    }
 }
 
 /// The superelement that is a model, and the digest of its bytes.

@@ -68,7 +68,8 @@ impl Job {
         });
         let loose = (self.model.mechanisms == Mechanisms::Accept)
             .then(|| "parts of the component may move without strain beyond rigid-body motion".to_owned());
-        held.chain(resisted).chain(grounded).chain(loose).chain(preloaded).collect()
+        let of_model = self.model.assumes.iter().flat_map(|assumes| assumes.sentences.iter().cloned());
+        of_model.chain(held).chain(resisted).chain(grounded).chain(loose).chain(preloaded).collect()
     }
 
     /// What the job says that a client of the superelement must know.

@@ -53,6 +53,13 @@ impl SceneJob {
         self.connected.is_some() || is_any_listed
     }
 
+    /// The scene without what merely leaves dofs out: dofs at rest and rigid bodies are part of the mechanical problem, and without them another
+    /// component would be reduced.
+    #[must_use]
+    pub fn with_every_dof(&self) -> Self {
+        Self { connected: None, unloaded: Vec::new(), ..self.clone() }
+    }
+
     /// What the scene says of a whole interface; none where directions of it differ.
     pub fn use_of_whole(&self, interfaces: &[InterfaceJob], name: &str) -> Option<DofUse> {
         let of_whole = self.use_of(interfaces, (name, None));

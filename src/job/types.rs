@@ -11,6 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 use super::added_mass::AddedMassJob;
+use super::assumes::AssumesJob;
 use super::damping::ComponentDampingJob;
 use super::fixed::FixedJob;
 use super::interface::InterfaceJob;
@@ -172,6 +173,9 @@ pub struct ModelJob {
     /// What the user knows of the component, to be compared with what the matrices say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expect: Option<Expectation>,
+    /// What the superelement whose matrices these are takes for granted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub assumes: Option<AssumesJob>,
 }
 
 /// Directions of which each is a rotation, none twice.

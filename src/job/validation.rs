@@ -24,6 +24,8 @@ pub(super) fn validate(job: &Job) -> Result<()> {
     super::load::validate(&job.loads)?;
     super::matrix::validate(&job.matrices)?;
     job.damping.as_ref().map_or(Ok(()), super::damping::validate)?;
+    let gravity = job.scene.as_ref().and_then(|scene| scene.gravity);
+    job.model.assumes.as_ref().map_or(Ok(()), |assumes| super::assumes::validate(assumes, gravity))?;
     if let Some(scene) = &job.scene {
         super::scene_validation::validate(scene, &job.interfaces)?;
     }

@@ -2,6 +2,7 @@
 
 use super::axes::Frame;
 use super::fitted::Fit;
+use super::unloaded::Unloaded;
 use crate::dofs::Direction;
 use crate::job::Coupling;
 
@@ -80,19 +81,21 @@ pub(super) struct Interfaces {
     pub(super) list: Vec<Resolved>,
     /// How many have coordinates.
     pub(super) n_kept: usize,
+    /// What the scene says that no load acts on.
+    pub(super) unloaded: Unloaded,
 }
 
 impl Interfaces {
     /// Interfaces of which the scene says nothing.
     pub(super) fn all(list: Vec<Resolved>) -> Self {
-        Self { n_kept: list.len(), list }
+        Self { n_kept: list.len(), list, unloaded: Unloaded::default() }
     }
 
-    /// The nodes that have coordinates, and the others.
-    pub(super) fn into_nodes(self) -> [Vec<InterfaceNode>; 2] {
+    /// The nodes that have coordinates, and the others; what is unloaded of all of them.
+    pub(super) fn into_nodes(self) -> ([Vec<InterfaceNode>; 2], Unloaded) {
         let mut nodes: Vec<InterfaceNode> = self.list.into_iter().map(|resolved| resolved.node).collect();
         let left_out = nodes.split_off(self.n_kept);
-        [nodes, left_out]
+        ([nodes, left_out], self.unloaded)
     }
 }
 

@@ -65,6 +65,7 @@ impl Partition {
             // Names, outputs and facts, and what is made of the fields above. Who asks the facts of the model adds them to the key.
             interface: _,
             left_out: _,
+            unloaded: _,
             followers: _,
             held: _,
             gravity: _,

@@ -61,6 +61,19 @@ pub struct RowLoad {
     values: Vec<f64>,
 }
 
+impl RowLoad {
+    /// The force on a dof, and the sum of the sizes of its terms.
+    pub(super) fn force_on(&self, dof: u32, transformation: &Transformation) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (row, value) in transformation.rows.iter().zip(&self.values).filter(|(_, value)| **value != 0.0) {
+            for (_, factor) in row.entries().filter(|(other, _)| *other == dof) {
+                sums = [sums[0] + factor * value, sums[1] + (factor * value).abs()];
+            }
+        }
+        sums
+    }
+}
+
 impl Loads {
     /// None.
     pub fn none(n_dofs: usize) -> Self {

@@ -13,6 +13,7 @@
 mod average_patch;
 mod axes;
 mod boundary;
+mod carried_loads;
 mod congruence;
 mod constraint_ground;
 mod constraints;
@@ -30,6 +31,7 @@ mod gravity;
 mod held;
 mod interface;
 mod interface_node;
+mod internal_directions;
 mod keys;
 mod load;
 mod metis;
@@ -56,6 +58,7 @@ mod statements;
 mod transformation;
 mod transformation_row;
 mod turned_forces;
+mod unloaded;
 
 pub use axes::Frame;
 pub(crate) use axes::{OF_THE_MODEL, of_job as axes_of_job};

@@ -30,6 +30,7 @@ use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
 use super::turned_forces::TurnedForces;
+use super::unloaded::Unloaded;
 use super::{congruence, constraints, follower, gravity, interface, missing_directions, ordering, origin, statements};
 
 /// Most interface dofs: the two reduced matrices alone take 6.4 GB then, and decomposing them days.
@@ -52,6 +53,8 @@ pub struct Partition {
     pub interface: Vec<InterfaceNode>,
     /// Interface nodes that the scene leaves without dofs of the interface; their patches are as they are with them.
     pub left_out: Vec<InterfaceNode>,
+    /// What the scene says that no load acts on.
+    pub(super) unloaded: Unloaded,
     /// Row of T for each row of the model.
     pub transformation: Transformation,
     /// Rows of the model that are no dof: held ones, and those that follow others.
@@ -160,10 +163,9 @@ impl Partition {
     pub fn in_scene(
         model: Model,
         interfaces: &[InterfaceJob],
-        held: Held,
+        mut held: Held,
         (scene, parting): (Option<&SceneJob>, Parting),
     ) -> Result<Self> {
-        let mut held = held;
         let resolved = interface::resolve(&model, interfaces)?;
         held.refuse_interface(&model, &resolved)?;
         let far_origins = origin::far_origins(&model, &resolved)?;
@@ -182,7 +184,7 @@ impl Partition {
         facts.findings.extend(constrained);
         let gravity = gravity::gravity(&model, &transformation, &held);
         let followers = follower::followers(&model, &transformation);
-        let [interface, left_out] = resolved.into_nodes();
+        let ([interface, left_out], unloaded) = resolved.into_nodes();
         let names = NodeNames([&interface, &left_out]);
         let turned = |stiffness| turned.added_to(stiffness, &transformation, names);
         let carried = Carried::of([model.stiffness, model.mass], &transformation, model.precision, turned)?;
@@ -206,6 +208,7 @@ impl Partition {
             dofs: transformation.dofs.clone(),
             interface,
             left_out,
+            unloaded,
             transformation,
             followers,
             held,

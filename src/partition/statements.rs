@@ -13,6 +13,7 @@ use super::held::{Ground, Held};
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
 use super::rigid_patch::PATCH_RANK_TOLERANCE;
 use super::sites::Sites;
+use super::unloaded::Unloaded;
 use crate::dense::rank_of_rows;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
@@ -32,7 +33,7 @@ pub(super) fn heeded(
     held: &mut Held,
 ) -> Result<Interfaces> {
     let Some(scene) = scene else { return Ok(interfaces) };
-    let (mut kept, mut without) = (Vec::new(), Vec::new());
+    let (mut kept, mut without, mut unloaded) = (Vec::new(), Vec::new(), Unloaded::default());
     let mut carried: Vec<Vec<Resolved>> = scene.prescribed.iter().map(|_| Vec::new()).collect();
     for resolved in interfaces.list {
         let use_of = |direction| scene.use_of(jobs, (&resolved.node.name, direction));
@@ -40,6 +41,7 @@ pub(super) fn heeded(
             carried[carrier].push(resolved);
             continue;
         }
+        unloaded.rows.extend(unloaded_rows(&resolved, use_of));
         let resolved = apart(model, resolved.clone(), use_of, held);
         match (&resolved.rows, resolved.is_coordinate()) {
             (_, true) => kept.push(resolved),
@@ -54,7 +56,37 @@ pub(super) fn heeded(
     }
     let n_kept = kept.len();
     kept.extend(without);
-    Ok(Interfaces { list: kept, n_kept })
+    for (number, resolved) in kept.iter().enumerate() {
+        let use_of = |direction| scene.use_of(jobs, (&resolved.node.name, direction));
+        unloaded.of_patches.extend(unloaded_of_patch((number, resolved), use_of));
+    }
+    Ok(Interfaces { list: kept, n_kept, unloaded })
+}
+
+/// The rows of a node of its own that are unloaded, with their names.
+fn unloaded_rows(resolved: &Resolved, use_of: impl Fn(Option<Direction>) -> DofUse) -> Vec<(usize, String)> {
+    let Rows::Own(rows) = &resolved.rows else { return Vec::new() };
+    let node = &resolved.node;
+    let directions = |at: usize| node.directions.get(at).copied();
+    let is_meant = |(at, _): &(usize, &usize)| use_of(directions(*at)) == DofUse::Unloaded;
+    let named = |(at, row): (usize, &usize)| (*row, part_name(&node.name, directions(at)));
+    rows.iter().enumerate().filter(is_meant).map(named).collect()
+}
+
+/// The directions of a patch that are unloaded, of a node by its number, with their names.
+fn unloaded_of_patch(
+    (number, resolved): (usize, &Resolved),
+    use_of: impl Fn(Option<Direction>) -> DofUse,
+) -> Vec<((usize, Direction), String)> {
+    if matches!(resolved.rows, Rows::Own(_)) || resolved.carrier.is_some() {
+        return Vec::new();
+    }
+    let unloaded = Direction::ALL.into_iter().filter(|direction| use_of(Some(*direction)) == DofUse::Unloaded);
+    unloaded.map(|direction| ((number, direction), part_name(&resolved.node.name, Some(direction)))).collect()
+}
+
+fn part_name(interface: &str, direction: Option<Direction>) -> String {
+    direction.map_or_else(|| interface.to_owned(), |direction| format!("{interface}.{direction}"))
 }
 
 /// A node without the dofs that are no coordinates; those at rest join what is held.

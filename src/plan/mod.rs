@@ -11,7 +11,7 @@
 //!
 //! A rule leaves something out in one of two ways. A pure omission changes no bit of what is kept. Others change it within the error bars of
 //! what is kept, because an equal answer is computed in another way. `run.skip = "nothing"` (`--no-skip`) does without any of it, so
-//! that the two can be compared; each rule has a guard that is measured in every run in which it acts.
+//! that the two can be compared. It keeps dofs at rest and rigid bodies of the scene, which are part of the mechanical problem; each rule has a guard that is measured in every run in which it acts.
 
 mod facts;
 #[expect(clippy::module_inception, reason = "the plan is what the folder makes")]

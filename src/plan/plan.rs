@@ -1,5 +1,6 @@
 //! The plan of a run: the job as its scene needs it, and what each rule decides.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use supel_runtime::Flag;
@@ -16,6 +17,8 @@ use crate::job::{Certify, Job, ModeSelection, ModesJob, SceneJob};
 pub struct Plan {
     given: Job,
     job: Job,
+    /// What the scene says of interface dofs, as far as this run heeds it.
+    statements: Option<SceneJob>,
     facts: Option<Facts>,
 }
 
@@ -31,8 +34,9 @@ pub struct Row {
 impl Plan {
     /// The plan of a job, before anything is read.
     pub fn of(given: &Job) -> Self {
-        let job = rules::needed(&Scene::of(given));
-        Self { given: given.clone(), job, facts: None }
+        let scene = Scene::of(given);
+        let statements = scene.statements().filter(|stated| stated.has_statements()).map(Cow::into_owned);
+        Self { given: given.clone(), job: rules::needed(&scene), statements, facts: None }
     }
 
     /// The plan once the model is known.
@@ -89,20 +93,23 @@ impl Plan {
         self.facts.as_ref()
     }
 
-    /// What the scene says of interface dofs, where it is heeded.
+    /// What the scene says of interface dofs, as far as this run heeds it; none where that is nothing.
     pub fn statements(&self) -> Option<&SceneJob> {
-        self.scene().stated().filter(|stated| stated.has_statements())
+        self.statements.as_ref()
     }
 
     /// What the superelement takes for granted of the simulation, one sentence each: what the job states, and what the scene lets a run leave
-    /// out.
+    /// out. A superelement that is reduced again may have taken the same for granted.
     pub fn assumptions(&self) -> Vec<String> {
-        self.job.assumptions().into_iter().chain(rules::assumptions(&self.scene())).collect()
+        let mut said = BTreeSet::new();
+        let all = self.job.assumptions().into_iter().chain(rules::assumptions(&self.scene()));
+        all.filter(|sentence| said.insert(sentence.clone())).collect()
     }
 
     /// Along what alone gravity may act, in axes of the model, zero where it may not act; none where it may act along anything.
     pub fn gravity(&self) -> Option<[f64; 3]> {
-        rules::gravity(&self.scene())
+        let assumed = self.job.model.assumes.as_ref().and_then(|assumes| assumes.gravity);
+        rules::gravity(&self.scene()).or(assumed)
     }
 
     /// Whether dofs of the component are held at rest, by the job or by its scene.

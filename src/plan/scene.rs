@@ -1,5 +1,7 @@
 //! What the simulation will ask, gathered from all of a job.
 
+use std::borrow::Cow;
+
 use crate::job::{AnalysisJob, Boundary, InterfaceJob, Job, Method, ModeOrigin, RecoveryJob, SceneJob, Skip};
 
 /// The scene of a job with what other keys say of the simulation.
@@ -18,6 +20,15 @@ impl<'a> Scene<'a> {
     /// What `[scene]` says, where a run may leave out what it never asks.
     pub(super) fn stated(&self) -> Option<&'a SceneJob> {
         self.stated.filter(|_| self.may_skip())
+    }
+
+    /// What the scene says of interface dofs and other parts of the mechanical problem. What is at rest or moves as a rigid body does so in
+    /// every run; what nothing acts on is a coordinate where a run leaves nothing out.
+    pub(super) fn statements(&self) -> Option<Cow<'a, SceneJob>> {
+        self.stated.map(|stated| match self.may_skip() {
+            true => Cow::Borrowed(stated),
+            false => Cow::Owned(stated.with_every_dof()),
+        })
     }
 
     /// Whether the run may leave anything out.
@@ -54,6 +65,11 @@ impl<'a> Scene<'a> {
     pub(super) fn recovery(&self) -> Option<RecoveryJob> {
         let of_scene = || Some(self.stated?.outputs.as_ref()?.recovery());
         self.job.write.recovery.clone().or_else(of_scene)
+    }
+
+    /// Whether what is not recovered is left out because the scene names the nodes at which it looks.
+    pub(super) fn looks_at_outputs_alone(&self) -> bool {
+        self.stated().is_some_and(|stated| stated.outputs.is_some())
     }
 
     /// The end of the band, where the scene states one.

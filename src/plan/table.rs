@@ -72,7 +72,7 @@ pub const RULES: [Rule; 30] = [
     Rule {
         id: RuleId::K9,
         leaves_out: "interface dofs at rest, with their rows and columns of K and M",
-        kind: Kind::WithinBars,
+        kind: Kind::Always,
         because: "a dof that is zero takes no part in energies; its elimination is exact",
         guard: "M-10: every other row is in equilibrium; M-12: the motions that they hold are gone",
         decide: decide::k9,
@@ -80,7 +80,7 @@ pub const RULES: [Rule; 30] = [
     Rule {
         id: RuleId::K10,
         leaves_out: "deformation of the interface, where interfaces move as parts of one rigid body",
-        kind: Kind::WithinBars,
+        kind: Kind::Always,
         because: "motions of a rigid body are six; where they are all of the interface, Ψ_S U_B = U_I (24) gives Ψ_S without a solve",
         guard: "M-10: the static solutions are in equilibrium; M-11: they carry rigid-body motion",
         decide: decide::k10,

@@ -95,9 +95,10 @@ pub(super) fn accuracy(body: &ReportBody) -> Vec<(&'static str, String)> {
     );
     parts.push(match preservation.highest {
         Some(highest) => format!(
-            "highest frequency {} Hz, explicit steps below {} s",
+            "highest frequency {} Hz, explicit steps below {} s {}",
             number::quantity(highest.frequency_hz, 5),
-            number::scientific(highest.explicit_step_s, 2)
+            number::scientific(highest.explicit_step_s, 2),
+            if highest.is_damped { "damped" } else { "undamped" }
         ),
         None => "no largest explicit step is known: a motion has no mass, or none was found".to_owned(),
     });

@@ -1,5 +1,6 @@
 //! Superelements joined, held and loaded: their modes against those of the whole model, which must lie between the bounds.
 
+mod absent;
 mod again;
 mod bounds;
 mod document;

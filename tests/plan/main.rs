@@ -1,5 +1,6 @@
 //! What a run leaves out because its scene never asks for it: the same answers without it, and what says that it is gone.
 
+mod again;
 mod command;
 mod interface;
 mod modes;

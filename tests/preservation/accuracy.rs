@@ -322,6 +322,29 @@ fn the_largest_explicit_step_is_that_of_the_dense_spectrum() {
     assert!((highest.frequency_hz * std::f64::consts::TAU / lambda.sqrt() - 1.0).abs() < 1e-9, "{highest:?}");
 }
 
+/// At the step that the report gives, 4M/h² − 2C/h − K is singular, and definite below it; of modal damping it is 2/ω (√(1 + ζ²) − ζ).
+#[test]
+fn the_largest_explicit_step_knows_the_damping_of_the_file() {
+    let files = files();
+    let undamped = files.reduce("herting", "count = 4", "");
+    let undamped = undamped.report.body.preservation.highest.expect("a highest frequency");
+    assert!(!undamped.is_damped);
+    for (law, ratio) in [
+        ("modal = { ratio = 0.5 }", Some(0.5)),
+        ("rayleigh = { mass = 0.0, stiffness = 1e-3 }", None),
+        ("rayleigh = { mass = 0.0, stiffness = 1e-9 }", None),
+    ] {
+        let outcome = files.reduce("herting", "count = 4", &format!("\n[damping]\n{law}"));
+        let highest = outcome.report.body.preservation.highest.expect("a highest frequency");
+        let omega = std::f64::consts::TAU * highest.frequency_hz;
+        let zeta = ratio.unwrap_or(0.5 * omega * if law.contains("1e-3") { 1e-3 } else { 1e-9 });
+        let expected = 2.0 / omega * (zeta.hypot(1.0) - zeta);
+        assert!(highest.is_damped && highest.frequency_hz == undamped.frequency_hz, "{law}");
+        assert!((highest.explicit_step_s / expected - 1.0).abs() < 1e-6, "{law}: {highest:?}, expected {expected:e}");
+        assert!(highest.explicit_step_s < undamped.explicit_step_s, "{law}");
+    }
+}
+
 /// A dof without mass has no frequency, and no explicit step follows it.
 #[test]
 fn a_motion_without_mass_has_no_explicit_step() {

@@ -47,7 +47,7 @@ pub(in crate::plan) fn parting(scene: &Scene<'_>) -> Parting {
 
 /// What the scene says of interfaces, as a list of names.
 fn named(scene: &Scene<'_>, is_meant: impl Fn(DofUse) -> bool) -> Vec<String> {
-    let Some(stated) = scene.stated() else { return Vec::new() };
+    let Some(stated) = scene.statements() else { return Vec::new() };
     let mut names = Vec::new();
     for interface in scene.interfaces() {
         match stated.use_of_whole(scene.interfaces(), &interface.name) {
@@ -68,7 +68,7 @@ fn named(scene: &Scene<'_>, is_meant: impl Fn(DofUse) -> bool) -> Vec<String> {
 
 /// What statements about the interface take for granted.
 pub(super) fn assumptions(scene: &Scene<'_>) -> Vec<String> {
-    let Some(stated) = scene.stated() else { return Vec::new() };
+    let Some(stated) = scene.statements() else { return Vec::new() };
     let of = |is_meant: fn(DofUse) -> bool, words: &str| {
         let names = named(scene, is_meant);
         (!names.is_empty()).then(|| format!("{words}: {}", names.join(", ")))
@@ -81,7 +81,7 @@ pub(super) fn assumptions(scene: &Scene<'_>) -> Vec<String> {
         .iter()
         .map(|carrier| format!("{} move as parts of the rigid body {}", carrier.interfaces.join(", "), carrier.name));
     let inside =
-        stated.outputs.is_some().then(|| "inside the component recovered nodes alone are looked at".to_owned());
+        scene.looks_at_outputs_alone().then(|| "inside the component recovered nodes alone are looked at".to_owned());
     unloaded.into_iter().chain(grounded).chain(carried).chain(inside).collect()
 }
 

@@ -15,11 +15,12 @@ pub(super) fn size(page: &mut Markup, preservation: &Preservation) {
     page.heading("Highest frequency of the reduced model");
     match &preservation.highest {
         Some(highest) => page.paragraph(&format!(
-            "{} Hz. The central difference scheme is stable up to a step of {} s; an implicit scheme still follows this \
+            "{} Hz. The central difference scheme is stable up to a step of {} s, {}; an implicit scheme still follows this \
              motion with steps of {} s, a twentieth of its period. It belongs to the basis rather than to the component: \
              where it costs too many steps, damp it or leave it out.",
             quantity(highest.frequency_hz, 6),
             in_words(highest.explicit_step_s, 3),
+            if highest.is_damped { "with the damping of the superelement" } else { "undamped" },
             in_words(highest.resolving_step_s, 3)
         )),
         None => page.absent(

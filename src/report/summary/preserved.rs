@@ -41,9 +41,10 @@ pub(crate) fn write(page: &mut Page, preservation: &Preservation) {
     }
     if let Some(highest) = preservation.highest {
         let text = format!(
-            "{} Hz · explicit steps below {} s, {} s to follow it",
+            "{} Hz · explicit steps below {} s {}, {} s to follow it",
             number::quantity(highest.frequency_hz, 5),
             number::scientific(highest.explicit_step_s, 2),
+            if highest.is_damped { "damped" } else { "undamped" },
             number::scientific(highest.resolving_step_s, 2)
         );
         page.entry("highest", &text);

@@ -58,8 +58,11 @@ impl Boundary {
             self.load[*dof] = if is_rotation { inertia.moment } else { inertia.mass } / n_nodes;
         }
         let whose = if mass.is_none() { ", those of the component itself" } else { "" };
+        let without = partition.internal_directions(&interface.name);
+        let words: Vec<String> = without.iter().map(ToString::to_string).collect();
+        let but = if words.is_empty() { String::new() } else { format!(", but not along {}", words.join(" ")) };
         self.description = format!(
-            "{} carries a mass of {} with moments of inertia of {}{whose}; nothing is held",
+            "{} carries a mass of {} with moments of inertia of {}{whose}{but}; nothing is held",
             interface.name,
             quantity(inertia.mass * unit, 4),
             quantity(inertia.moment * unit, 4)

@@ -75,7 +75,7 @@ fn measured((evidence, own): (&Evidence<'_>, &Evidence<'_>), analysis: &Analysis
         return Ok(compared);
     }
     if plan.motion == Motion::Compared {
-        compared.modes(evidence)?;
+        compared.modes((evidence, own))?;
     }
     let notes = &mut compared.report.not_compared;
     compared.report.statics = statics::statics(evidence, &interfaces, plan.shown, notes);
@@ -105,18 +105,18 @@ impl Compared {
         }
     }
 
-    fn modes(&mut self, evidence: &Evidence<'_>) -> Result<()> {
+    fn modes(&mut self, (evidence, own): (&Evidence<'_>, &Evidence<'_>)) -> Result<()> {
         if evidence.retained.modes.count() > 0
             && let Some(preserved) = self.kept("shapes of the retained modes", mac::preserved(evidence))?
         {
             self.checks.push(mac::check(&preserved.modes));
             (self.report.modes, self.report.mac) = (preserved.modes, preserved.mac);
         }
-        let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
-        let spectral = shift(evidence).and_then(|alpha| Spectral::of(k.as_ref(), m.as_ref(), alpha));
-        let spectral = self.kept("highest reduced frequency", spectral)?;
-        let spectral = spectral.map(|spectral| spectral.of_rank(evidence.reduction.mass_rank()));
-        self.report.highest = spectral.and_then(|spectral| sizes::highest(evidence, &spectral));
+        // Damping is that of the same coordinates.
+        let (k, m) = (&own.reduction.stiffness, &own.reduction.mass);
+        let spectral = shift(own).and_then(|alpha| Spectral::of(k.as_ref(), m.as_ref(), alpha));
+        let highest = spectral.and_then(|spectral| sizes::highest(own, &spectral.of_rank(own.reduction.mass_rank())));
+        self.report.highest = self.kept("highest reduced frequency", highest)?.flatten();
         Ok(())
     }
 

@@ -24,6 +24,7 @@ mod boundary;
 mod compared;
 mod counts;
 mod enough;
+mod explicit_step;
 mod extended;
 mod full;
 mod interfaces;

@@ -194,8 +194,10 @@ pub struct SizeError {
 pub struct HighestFrequency {
     /// The frequency.
     pub frequency_hz: f64,
-    /// 2/ω: the largest step of the central difference scheme.
+    /// The largest step of the central difference scheme: 2/ω, and less with damping, whose velocity is that of the half step before.
     pub explicit_step_s: f64,
+    /// Whether the damping of the superelement is in that step.
+    pub is_damped: bool,
     /// T/20: the step with which an implicit scheme still follows it.
     pub resolving_step_s: f64,
 }

@@ -1,6 +1,9 @@
 //! What a smaller basis would cost in accuracy, and what the size that was chosen asks of an integrator.
 
+use faer::Mat;
+
 use super::super::evidence::Evidence;
+use super::explicit_step::explicit_step;
 use super::leading::leading;
 use super::outcome::{HighestFrequency, SizeError};
 use super::reduced::quotients;
@@ -86,15 +89,31 @@ fn n_columns(evidence: &Evidence<'_>, n_modes: usize) -> usize {
 }
 
 /// The highest frequency of the reduced model with its interface free; none where a motion has no mass, which no step follows.
-pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Option<HighestFrequency> {
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
+pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Result<Option<HighestFrequency>> {
     let all = reduced.eigenvalues();
     // A mass of rigid-body motion alone has zero eigenvalues and no others.
     let n_zero = evidence.rigid.count() - evidence.rigid.n_massless;
-    let lambda = all.get(n_zero..)?.last().copied().filter(|lambda| *lambda > 0.0 && all.len() == reduced.n())?;
+    let elastic = all.get(n_zero..).and_then(<[f64]>::last);
+    let Some(lambda) = elastic.copied().filter(|lambda| *lambda > 0.0 && all.len() == reduced.n()) else {
+        return Ok(None);
+    };
     let frequency_hz = evidence.partition.scaling.hertz(lambda);
-    Some(HighestFrequency {
+    let undamped = 1.0 / (std::f64::consts::PI * frequency_hz);
+    let damped = match evidence.damping {
+        Some(damping) => {
+            let own = evidence.reduction.in_user_units(evidence.partition);
+            explicit_step([&own.stiffness, &own.mass, &damping.matrix].map(Mat::as_ref))?
+        }
+        None => None,
+    };
+    Ok(Some(HighestFrequency {
         frequency_hz,
-        explicit_step_s: 1.0 / (std::f64::consts::PI * frequency_hz),
+        // Damping never makes a larger step stable.
+        explicit_step_s: damped.map_or(undamped, |damped| damped.min(undamped)),
+        is_damped: evidence.damping.is_some(),
         resolving_step_s: 1.0 / (STEPS_PER_PERIOD * frequency_hz),
-    })
+    }))
 }

@@ -86,7 +86,12 @@ pub(crate) fn preservation() -> Preservation {
         response: Some(response()),
         internal_loads: None,
         size_errors: (0..=10).map(size_error).collect(),
-        highest: Some(HighestFrequency { frequency_hz: 61_234.5, explicit_step_s: 5.2e-6, resolving_step_s: 8.17e-7 }),
+        highest: Some(HighestFrequency {
+            frequency_hz: 61_234.5,
+            explicit_step_s: 5.2e-6,
+            is_damped: false,
+            resolving_step_s: 8.17e-7,
+        }),
         not_compared: vec!["static stiffness at rim: it has 96 dofs, of which 24 are shown at most".to_owned()],
     }
 }
