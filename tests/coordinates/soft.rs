@@ -3,7 +3,7 @@
 use supel::error::Error;
 use supel::model::{CoordinateFit, Model as Checked};
 use supel_models::transform::{join, supported, translated};
-use supel_models::{Material, Model, brick};
+use supel_models::{Ends, Material, Model, brick};
 
 use crate::frames::with_digits;
 use crate::{Ties, compared};
@@ -14,13 +14,16 @@ const CELLS: [usize; 3] = [4, 2, 2];
 const N_NODES: i64 = 45;
 
 /// A steel bar that goes on in one whose Young's modulus is so many times that of steel, held at the steel end or free.
-fn bar(share: f64, is_held: bool) -> Model {
+fn bar(share: f64, steel_end: Ends) -> Model {
     let soft = Material { young: share * Material::STEEL_SI.young, density: 1100.0, ..Material::STEEL_SI };
     let [steel, soft] = [Material::STEEL_SI, soft].map(|material| brick(CELLS, SIZE, &material));
     let pairs: Vec<(i64, i64)> = steel.groups["XMAX"].iter().zip(&soft.groups["XMIN"]).map(|(a, b)| (*a, *b)).collect();
     let whole = join(&steel, &translated(&soft, [SIZE[0], 0.0, 0.0]), &pairs);
     let wall = steel.groups["XMIN"].clone();
-    if is_held { supported(&whole, |(label, _)| wall.contains(&label)) } else { whole }
+    match steel_end {
+        Ends::Fixed => supported(&whole, |(label, _)| wall.contains(&label)),
+        Ends::Free => whole,
+    }
 }
 
 fn fit(model: &Model, digits: u32) -> Result<CoordinateFit, Error> {
@@ -46,9 +49,9 @@ const FAULTS: [Fault; 3] = [
 #[test]
 fn wrong_places_in_a_soft_part_are_found() {
     for (share, digits) in [(1e-2, 6), (1e-4, 8), (1e-4, 7), (1e-4, 6), (1e-5, 9), (1e-5, 6), (1e-8, 17)] {
-        for is_held in [true, false] {
-            let sound = bar(share, is_held);
-            let name = format!("{share:e} of steel, {digits} digits, held {is_held}");
+        for (steel_end, name) in [(Ends::Fixed, "held"), (Ends::Free, "free")] {
+            let sound = bar(share, steel_end);
+            let name = format!("{share:e} of steel, {digits} digits, {name}");
             let of_sound = fit(&sound, digits);
             assert!(matches!(of_sound, Ok(CoordinateFit::Exact | CoordinateFit::Rounded(_))), "{name}: {of_sound:?}");
             for (what, fault) in FAULTS {
