@@ -264,12 +264,14 @@ impl std::fmt::Display for Finding {
 fn constrained([n_rows, n_dependent]: [usize; 2], largest: f64, redundant: &[usize], empty: u64) -> String {
     /// Constraints that a message names.
     const SHOWN: usize = 12;
-    let mut text = format!(
-        "{}, {} by factors of {} at most",
-        counted(n_rows, "constraint", "constraints"),
-        counted(n_dependent, "dof follows others", "dofs follow others"),
-        quantity(largest, 3)
-    );
+    let of_dofs = match largest {
+        0.0 => counted(n_dependent, "dof is held at rest", "dofs are held at rest"),
+        _ => {
+            let follow = counted(n_dependent, "dof follows others", "dofs follow others");
+            format!("{follow} by factors of {} at most", quantity(largest, 3))
+        }
+    };
+    let mut text = format!("{}, {of_dofs}", counted(n_rows, "constraint", "constraints"));
     if !redundant.is_empty() {
         let rows: Vec<String> = redundant.iter().take(SHOWN).map(ToString::to_string).collect();
         let more = redundant.len().saturating_sub(SHOWN);
