@@ -428,16 +428,16 @@ pub enum Error {
         /// How many.
         count: usize,
     },
-    /// A matrix declared symmetric has entries on both sides of the diagonal.
+    /// A matrix declared symmetric gives a pair of a row and a column twice.
     #[entry(
         "E-DOUBLE-TRIANGLE",
         InputData,
-        "write one triangle, declare the matrix general, or say which triangle holds with `model.symmetric` \
-        (`reduce --symmetric`)"
+        "give each pair of a row and a column once, in whichever order, declare the matrix general, or say which triangle holds with \
+        `model.symmetric` (`reduce --symmetric`)"
     )]
     #[error(
-        "{}: declared {declared} – found entries on both sides of the diagonal, ({}, {}) and ({}, {}) – expected one \
-        triangle – {remedy}",
+        "{}: declared {declared} – found a pair given twice, at ({}, {}) and ({}, {}) – expected each pair of a row and \
+        a column once – {remedy}",
         path.display(), lower.0, lower.1, upper.0, upper.1
     )]
     DoubleTriangle {
@@ -447,9 +447,9 @@ pub enum Error {
         declared: &'static str,
         /// What to do.
         remedy: &'static str,
-        /// Row and column, from 1, of an entry below the diagonal.
+        /// Row and column, from 1, of the entry below the diagonal.
         lower: (u64, u64),
-        /// Row and column, from 1, of an entry above the diagonal.
+        /// Row and column, from 1, of the entry above the diagonal.
         upper: (u64, u64),
     },
     /// A matrix declared skew-symmetric has an entry on its diagonal.

@@ -100,7 +100,15 @@ pub fn certified_pairs(
 
 /// λ of the first elastic mode of a free component, which tells what is no frequency; none of one that is held.
 fn first_elastic(component: Component<'_>, job: &ReductionJob) -> Result<Option<f64>> {
-    if component.rigid.count() == 0 || component.rigid.count() >= component.partition.n_dofs() {
+    if component.rigid.count() == 0 { Ok(None) } else { lowest_elastic(component, job) }
+}
+
+/// λ of the lowest elastic mode of a component, wherever the band of the job ends; none where it moves as a rigid body only.
+///
+/// # Errors
+/// Those of the search.
+pub(super) fn lowest_elastic(component: Component<'_>, job: &ReductionJob) -> Result<Option<f64>> {
+    if component.rigid.count() >= component.partition.n_dofs() {
         return Ok(None);
     }
     let modes = Some(ModesJob::Computed(ModeSelection::Count { count: 1 }));

@@ -7,7 +7,7 @@ use super::gathering::{Gathered, Gathering};
 use super::written::{MAX_DECIMAL_DIGITS, Written};
 use super::{MatrixInput, MatrixRole};
 use crate::error::{Error, Result};
-use crate::sparse::{Declared, ENTRY_BYTES, Given, ROW_BYTES, TRIPLET_BYTES, Triplets};
+use crate::sparse::{Completed, Declared, ENTRY_BYTES, Given, ROW_BYTES, TRIPLET_BYTES, Triplets, completed};
 
 /// Order up to which a matrix may be empty; its row pointers take 8 MiB.
 const FREE_ORDER: u64 = 1 << 20;
@@ -29,7 +29,7 @@ pub(super) struct Found {
     pub(super) digest: String,
 }
 
-/// The matrix of entries. With a triangle asked for, entries on both sides of the diagonal of a matrix declared symmetric are let pass.
+/// The matrix of entries. With a triangle asked for, pairs that a matrix declared symmetric gives twice are let pass.
 ///
 /// # Errors
 /// [`Error::MatrixMostlyEmpty`]; [`Error::MemoryRead`]; [`Error::DoubleTriangle`].
@@ -42,7 +42,7 @@ pub(super) fn assembled(found: Found, source: &MatrixSource<'_>, claim: &Claim<'
     // Needed for sums of numbers of few digits alone.
     let most_alike = (digits.significant <= MAX_DECIMAL_DIGITS && n_merged == 0).then(|| most_alike(&triplets));
     let (matrix, mut notes) = triplets.assemble(n as usize, assembled, path)?;
-    if declared != Declared::General {
+    if declared != Declared::General && !matches!(notes.given, Given::EitherOrder { .. }) {
         notes.given = Given::Whole;
     }
     notes.n_duplicates += n_merged;
@@ -65,6 +65,30 @@ fn check_emptiness(source: &MatrixSource<'_>, n: u32, n_entries: usize) -> Resul
 pub(super) fn bytes_of_entry(declared: Declared) -> u64 {
     let is_mirrored = matches!(declared, Declared::Symmetric | Declared::Skew);
     TRIPLET_BYTES + if is_mirrored { 2 * ENTRY_BYTES } else { ENTRY_BYTES }
+}
+
+/// Completes a matrix that its file declares symmetric and of which it may give each pair of a row and a column once or twice.
+///
+/// # Errors
+/// [`Error::DoubleTriangle`] where a pair has two values.
+pub(super) fn complete(input: &mut MatrixInput) -> Result<()> {
+    let Completed { matrix, n_once, conflict } = completed(&input.matrix);
+    if let Some((row, col)) = conflict {
+        let (row, col) = (row.max(col) as u64 + 1, row.min(col) as u64 + 1);
+        let remedy = "give one value of both, or declare the matrix general";
+        let path = input.path.clone();
+        return Err(Error::DoubleTriangle {
+            path,
+            declared: "symmetric",
+            remedy,
+            lower: (row, col),
+            upper: (col, row),
+        });
+    }
+    if n_once > 0 {
+        input.matrix = matrix;
+    }
+    Ok(())
 }
 
 /// Entries that come one by one.

@@ -11,6 +11,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use super::assembled::complete;
 use super::blocks::LastLine;
 use super::bulk_cards::Cards;
 use super::bulk_lines::Place;
@@ -106,7 +107,7 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
     if !matches!(head.form, 1 | 2 | 6) {
         return unread(format!("{} of form {}", head.name, head.form));
     }
-    // An entry of a symmetric matrix may come once or twice; where both differ, the matrix is not symmetric, which the model refuses.
+    // An entry of a symmetric matrix may come once or twice.
     let declared = if head.form == 6 { Declared::General } else { source.role.undeclared() };
     let mut entries = LabelledEntries::new(source, declared);
     let (mut rows, mut columns) = (BTreeSet::new(), BTreeSet::new());
@@ -144,6 +145,9 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
     }
     let mut read = entries.into_matrix(source, declared, (cards.digest()?, LastLine::Terminated))?;
     if head.form == 6 {
+        if source.triangle.is_none() {
+            complete(&mut read.input)?;
+        }
         read.input.notes.given = Given::Whole;
     }
     Ok(read)

@@ -25,7 +25,7 @@ use crate::job::{
     ConstraintsToGround, Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob,
 };
 use crate::regular_file::unchanged;
-use crate::sparse::{Triangle, Turning};
+use crate::sparse::{Mirrored, Triangle, Turning};
 
 /// A finite element model as it was read: matrices of one size, a dof map that fits them, nodes that fit the map.
 #[derive(Clone, Debug)]
@@ -327,9 +327,10 @@ pub(super) fn refuse_duplicates(matrix: &MatrixInput, duplicates: Duplicates) ->
 
 /// Replaces the other triangle by the mirror image of this one.
 fn take_triangle(matrix: &mut MatrixInput, triangle: Triangle) -> Option<InputNote> {
-    let (mirrored, n_differing) = triangle.mirrored(&matrix.matrix);
+    let Mirrored { matrix: mirrored, n_differing, n_once } = triangle.mirrored(&matrix.matrix);
     matrix.matrix = mirrored;
-    (n_differing > 0).then(|| InputNote::TriangleTaken { path: matrix.path.clone(), triangle, n_differing })
+    let path = matrix.path.clone();
+    (n_differing + n_once > 0).then_some(InputNote::TriangleTaken { path, triangle, n_differing, n_once })
 }
 
 /// An empty last row where no other row is empty: what indices from zero leave in a matrix that reads as if from one.

@@ -40,6 +40,8 @@ pub enum InputNote {
         triangle: Triangle,
         /// Positions of the other triangle that held something else.
         n_differing: usize,
+        /// Pairs of a row and a column that stood in one triangle only, whichever.
+        n_once: usize,
     },
     /// Rows without stiffness and mass were dropped on request.
     EmptyRowsDropped {
@@ -188,14 +190,21 @@ impl fmt::Display for InputNote {
                     file_name(path)
                 )
             }
-            Self::TriangleTaken { path, triangle, n_differing } => {
+            Self::TriangleTaken { path, triangle, n_differing, n_once } => {
                 let (kept, other) = match triangle {
                     Triangle::Lower => ("lower", "above"),
                     Triangle::Upper => ("upper", "below"),
                 };
-                let positions = counted(*n_differing, "position", "positions");
-                let what = format!("what stands at {positions} {other} the diagonal differs from it and was left out");
-                write!(f, "{}: the {kept} triangle was taken for both; {what}", file_name(path))
+                write!(f, "{}: the {kept} triangle was taken for both", file_name(path))?;
+                if *n_differing > 0 {
+                    let positions = counted(*n_differing, "position", "positions");
+                    write!(f, "; what stands at {positions} {other} the diagonal differs from it and was left out")?;
+                }
+                if *n_once > 0 {
+                    let pairs = counted(*n_once, "pair of rows that is", "pairs of rows that are");
+                    write!(f, "; of {pairs} given once, what stands in either triangle was mirrored")?;
+                }
+                Ok(())
             }
             Self::EmptyRowsDropped { count, row, dof } => {
                 let dof = dof.map(|dof| format!(", {dof}")).unwrap_or_default();

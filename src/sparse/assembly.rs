@@ -79,7 +79,7 @@ impl TripletBlocks {
     /// which the notes say; one declared whole is not. `path` names the source in errors.
     ///
     /// # Errors
-    /// [`Error::DoubleTriangle`] where a source declared symmetric or skew has entries on both sides of the diagonal;
+    /// [`Error::DoubleTriangle`] where a source declared symmetric or skew has entries at both places of a pair of a row and a column;
     /// [`Error::SkewDiagonal`] where one declared skew has an entry other than zero on it.
     ///
     /// # Panics
@@ -111,7 +111,7 @@ impl TripletBlocks {
             // What is stored twice was given once.
             (_, Mirror::On | Mirror::Negated) => n_entries - (indices.len() + n_on_diagonal(&pointers, &indices)) / 2,
         };
-        let is_told = mirror == Mirror::On && declared != Declared::Symmetric;
+        let is_told = mirror == Mirror::On && !(declared == Declared::Symmetric && given == Given::OneTriangle);
         let given = if is_told { given } else { Given::Whole };
         let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, given, triangle, turned: None };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
@@ -120,19 +120,26 @@ impl TripletBlocks {
 
     /// Refuses what contradicts a declaration that one triangle is given.
     fn check_declared(&self, declared: Declared, given: Given, path: &Path) -> Result<()> {
-        if matches!(declared, Declared::Symmetric | Declared::Skew) && given != Given::OneTriangle {
-            let (lower, upper) = (self.first_where(|row, col| row > col), self.first_where(|row, col| row < col));
-            if let (Some(lower), Some(upper)) = (lower, upper) {
-                let (declared, remedy) = match declared {
-                    Declared::Skew => ("skew-symmetric", "remove the other, or declare the matrix general"),
-                    _ => (
-                        "symmetric",
-                        "remove the other, declare the matrix general, or say which holds: model.symmetric = \"lower\" or \"upper\" \
-                         (reduce --symmetric)",
-                    ),
-                };
-                return Err(Error::DoubleTriangle { path: path.to_owned(), declared, remedy, lower, upper });
-            }
+        if matches!(declared, Declared::Symmetric | Declared::Skew)
+            && given == Given::Whole
+            && let Some((row, col)) = self.twice()
+        {
+            let (declared, remedy) = match declared {
+                Declared::Skew => ("skew-symmetric", "give each pair once, or declare the matrix general"),
+                _ => (
+                    "symmetric",
+                    "give each pair once, declare the matrix general, or say which triangle holds: model.symmetric = \"lower\" or \
+                     \"upper\" (reduce --symmetric)",
+                ),
+            };
+            let (row, col) = (u64::from(row) + 1, u64::from(col) + 1);
+            return Err(Error::DoubleTriangle {
+                path: path.to_owned(),
+                declared,
+                remedy,
+                lower: (row, col),
+                upper: (col, row),
+            });
         }
         if declared == Declared::Skew
             && let Some((row, _, value)) = self.iter().find(|&(row, col, value)| row == col && value != 0.0)
@@ -146,12 +153,6 @@ impl TripletBlocks {
     fn triangle(&self) -> Option<Triangle> {
         let (row, col, _) = self.iter().find(|&(row, col, _)| row != col)?;
         Some(if row > col { Triangle::Lower } else { Triangle::Upper })
-    }
-
-    /// Row and column, from 1, of the first entry on one side of the diagonal.
-    fn first_where(&self, side: impl Fn(u32, u32) -> bool) -> Option<(u64, u64)> {
-        let found = self.iter().find(|&(row, col, _)| side(row, col));
-        found.map(|(row, col, _)| (u64::from(row) + 1, u64::from(col) + 1))
     }
 }
 

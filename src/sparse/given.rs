@@ -22,31 +22,34 @@ pub enum Given {
 }
 
 impl TripletBlocks {
-    /// What the entries give. The costly question is asked only where the first entry below the diagonal has none at its mirror image.
+    /// What the entries give.
     pub(super) fn given(&self) -> Given {
-        let first = |side: fn(u32, u32) -> bool| self.iter().find(|&(row, col, _)| side(row, col));
-        let below = first(|row, col| row > col);
-        let above = first(|row, col| row < col);
-        let (row, col) = match (below, above) {
-            (None, None) => return Given::Whole,
-            (Some(_), None) | (None, Some(_)) => return Given::OneTriangle,
-            (Some((row, col, _)), Some(_)) => (row, col),
-        };
-        // A whole matrix has the mirror image of each entry, that of the first one, too.
-        let is_mirror_image = |(other_row, other_col, _): (u32, u32, f64)| (other_row, other_col) == (col, row);
-        if self.iter().any(is_mirror_image) {
-            return Given::Whole;
+        let n_of = |side: fn(u32, u32) -> bool| self.iter().filter(|&(row, col, _)| side(row, col)).count();
+        let has = |side: fn(u32, u32) -> bool| self.iter().any(|(row, col, _)| side(row, col));
+        match (has(|row, col| row > col), has(|row, col| row < col)) {
+            (false, false) => Given::Whole,
+            (true, false) | (false, true) => Given::OneTriangle,
+            (true, true) if self.twice().is_some() => Given::Whole,
+            (true, true) => {
+                Given::EitherOrder { n_below: n_of(|row, col| row > col), n_above: n_of(|row, col| row < col) }
+            }
+        }
+    }
+
+    /// Row and column, the larger one first, of a pair that has entries at both places. The costly question is asked only where the first entry
+    /// below the diagonal has none at its mirror image: a whole matrix has those of all.
+    pub(super) fn twice(&self) -> Option<(u32, u32)> {
+        let (row, col, _) = self.iter().find(|(row, col, _)| row > col)?;
+        if self.iter().any(|(other_row, other_col, _)| (other_row, other_col) == (col, row)) {
+            return Some((row, col));
         }
         let key = |row: u32, col: u32| (u64::from(row) << 32) | u64::from(col);
         let mut above: Vec<u64> = Vec::new();
         above.extend(self.iter().filter(|(row, col, _)| row < col).map(|(row, col, _)| key(col, row)));
         above.par_sort_unstable();
-        let is_twice = |(row, col, _): (u32, u32, f64)| row > col && above.binary_search(&key(row, col)).is_ok();
-        if self.blocks.par_iter().any(|block| block.iter().any(is_twice)) {
-            return Given::Whole;
-        }
-        let n_below = self.iter().filter(|(row, col, _)| row > col).count();
-        Given::EitherOrder { n_below, n_above: above.len() }
+        let is_twice = |(row, col, _): &(u32, u32, f64)| row > col && above.binary_search(&key(*row, *col)).is_ok();
+        let found = self.blocks.par_iter().find_map_first(|block| block.iter().find(is_twice));
+        found.map(|(row, col, _)| (row, col))
     }
 }
 

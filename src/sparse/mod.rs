@@ -10,6 +10,7 @@ mod by_rows;
 mod energy;
 mod given;
 mod leading;
+mod pairs;
 mod pencil;
 mod principal;
 mod product;
@@ -21,11 +22,13 @@ pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
 pub(crate) use energy::{absolute_energy, energies_of_terms};
 pub use given::Given;
 pub use leading::{Leading, diagonal};
+pub(crate) use pairs::{Completed, completed};
 pub use pencil::{Pencil, Precision};
 pub(crate) use principal::principal;
 pub use product::{absolute_product, multiply, panels, product, product_and_terms};
 pub use rounding::Rounding;
 pub(crate) use rounding::ends;
+pub(crate) use triangle::Mirrored;
 pub use triangle::Triangle;
 pub use turning::{Turned, TurnedRoundings, Turning};
 
@@ -56,9 +59,9 @@ pub enum Declared {
     OneHolds,
     /// Every entry is given.
     Whole,
-    /// One triangle is given and stands for both.
+    /// Each pair of a row and a column is given once, in one triangle or in either order, and stands for both.
     Symmetric,
-    /// One triangle is given, and the other is its mirror image with the opposite sign.
+    /// Each pair is given once, and its mirror image has the opposite sign.
     Skew,
 }
 

@@ -4,7 +4,8 @@ use clap::ValueEnum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::sparse::SparseMatrix;
+use super::SparseMatrix;
+use super::pairs::{Completed, completed};
 
 /// The triangle of K and M that holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, ValueEnum)]
@@ -16,6 +17,15 @@ pub enum Triangle {
     Upper,
 }
 
+/// What [`Triangle::mirrored`] made.
+pub(crate) struct Mirrored {
+    pub(crate) matrix: SparseMatrix,
+    /// Positions of the other triangle that held another value.
+    pub(crate) n_differing: usize,
+    /// Pairs of a row and a column that had an entry in one triangle only.
+    pub(crate) n_once: usize,
+}
+
 impl Triangle {
     fn holds(self, row: u32, col: u32) -> bool {
         match self {
@@ -24,8 +34,10 @@ impl Triangle {
         }
     }
 
-    /// The matrix that this triangle of `matrix` stands for, and how many positions of the other triangle differed.
-    pub(crate) fn mirrored(self, matrix: &SparseMatrix) -> (SparseMatrix, usize) {
+    /// The matrix that this triangle of `matrix` stands for, and how many positions of the other triangle differed. What stands in the other
+    /// one only is taken from there.
+    pub(crate) fn mirrored(self, matrix: &SparseMatrix) -> Mirrored {
+        let Completed { matrix, n_once, .. } = completed(matrix);
         let transposed = matrix.transpose_view().to_csr();
         let n = matrix.rows();
         let (mut pointers, mut indices, mut data) = (Vec::with_capacity(n + 1), Vec::new(), Vec::new());
@@ -48,7 +60,7 @@ impl Triangle {
             }
             pointers.push(indices.len());
         }
-        (SparseMatrix::new((n, n), pointers, indices, data), n_differing)
+        Mirrored { matrix: SparseMatrix::new((n, n), pointers, indices, data), n_differing, n_once }
     }
 }
 

@@ -125,7 +125,7 @@ impl Compared<'_> {
 
     /// M-12: their energy, by the forces of what the superelement takes for rigid-body motion.
     fn rigid_energy(&self) -> Option<Check> {
-        let first = *self.full.first()?;
+        let first = self.first;
         let (k, q) = (&self.foreign.stiffness, &self.rigid.coordinates);
         let energies = dense::dots(q.as_ref(), dense::product(k.given.as_ref(), q.as_ref()).as_ref());
         let value = dense::worst(energies.iter().map(|energy| energy.abs() / first));
@@ -246,20 +246,16 @@ impl Compared<'_> {
         })
     }
 
-    /// M-24.
+    /// M-24: the k-th of all eigenvalues of the one against the k-th of all of the other.
     fn monotonicity(&self) -> Option<Check> {
         /// What rounding may excuse at most.
         const MOST: f64 = 1e-2;
         let mut worst: (f64, Limits, Option<usize>) = (0.0, Limits { engineering: CARRIED, ..Limits::default() }, None);
-        for (at, (reduced, (full, error))) in self
-            .elastic()
-            .iter()
-            .zip(self.full.iter().zip(self.errors))
-            .enumerate()
-            .filter(|(_, (_, (full, _)))| **full <= self.top)
-        {
+        let compared = self.full.iter().zip(self.errors).enumerate().filter(|(_, (full, _))| **full <= self.top);
+        for (at, (full, error)) in compared {
+            let Some((reduced, of_digits)) = self.above(at) else { break };
             let below = (1.0 - reduced / full).max(0.0);
-            let of_reduced = dense::NOISE_FACTOR * self.of_digits_of(at);
+            let of_reduced = dense::NOISE_FACTOR * of_digits;
             let data = error.data_bar + self.of_digits() * error.cancellation + of_reduced;
             let limits = Limits { engineering: CARRIED, arithmetic: error.residual_bar, data }.capped(MOST, MOST);
             if worst.2.is_none() || dense::worse(below / limits.value(), worst.0 / worst.1.value()) {
@@ -281,7 +277,7 @@ impl Compared<'_> {
     /// M-25.
     fn definiteness(&self) -> Check {
         let mass = negative_mass(self.foreign.mass.given.as_ref());
-        let first = self.full.first().copied().unwrap_or(1.0);
+        let first = self.first;
         let (value, worst) = match (mass, &self.reduced) {
             (Ok(Some(_)) | Err(_), _) => (f64::INFINITY, Some("the mass has a negative eigenvalue".to_owned())),
             (Ok(None), None) => {

@@ -14,6 +14,8 @@ pub(super) struct Compared<'a> {
     pub(super) foreign: &'a Foreign,
     /// λ of the component, ascending, rigid-body motion left out.
     pub(super) full: &'a [f64],
+    /// λ of its lowest elastic mode, which a band may end below.
+    pub(super) first: f64,
     pub(super) errors: &'a [ModeError],
     /// λ of the superelement, ascending; none where K̂ or M̂ is not definite.
     pub(super) reduced: Option<Vec<f64>>,
@@ -47,9 +49,12 @@ impl Compared<'_> {
         self.reduced.as_deref().map_or(&[], |reduced| &reduced[self.n_without_stiffness..])
     }
 
-    /// What the digits of K̂ and M̂ may make of the eigenvalue of an elastic mode, relative to it.
-    pub(super) fn of_digits_of(&self, mode: usize) -> f64 {
-        self.of_digits.get(self.n_without_stiffness + mode).copied().unwrap_or(0.0)
+    /// The eigenvalue of the superelement that lies above that of an elastic mode of the component by Courant and Fischer, with what the digits
+    /// of K̂ and M̂ may make of it, relative to it: both are counted from the lowest of all, motions without stiffness among them.
+    pub(super) fn above(&self, mode: usize) -> Option<(f64, f64)> {
+        let at = self.rigid.left.len() + mode;
+        let lambda = *self.reduced.as_ref()?.get(at)?;
+        Some((lambda, self.of_digits.get(at).copied().unwrap_or(0.0)))
     }
 
     /// The frequencies of both models, one to one by the shapes of their modes.

@@ -9,6 +9,7 @@ use super::interface::Interface;
 use super::left_out::LeftOut;
 use super::pairing::paired;
 use crate::certification::band::Band;
+use crate::certification::certified::lowest_elastic;
 use crate::dense;
 use crate::eigen::{Modes, Spectral};
 use crate::error::{ErrorClass, Result};
@@ -179,7 +180,11 @@ pub fn compared_free(
         None if modes.count() <= 1 => highest * (1.0 + 1e-3),
         None => (highest / CUT_OFF.powi(2)).max(modes.lambda[0] * (1.0 + 1e-3)),
     };
-    let first = modes.lambda.first().copied().unwrap_or(1.0);
+    // A band may end below it.
+    let first = match modes.lambda.first() {
+        Some(first) => *first,
+        None => lowest_elastic(component, job)?.unwrap_or(1.0),
+    };
     let spectral = Spectral::if_definite(foreign.stiffness.given.as_ref(), foreign.mass.given.as_ref(), first)?;
     let of_digits = spectral.as_ref().map_or_else(Vec::new, |spectral| changes(foreign, spectral, top));
     let reduced = spectral.as_ref().map(Spectral::eigenvalues);
@@ -193,6 +198,7 @@ pub fn compared_free(
         component,
         foreign,
         full: &modes.lambda,
+        first,
         errors: &modes.errors,
         reduced,
         of_digits,

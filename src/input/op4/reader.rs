@@ -7,7 +7,7 @@ use super::matrices::Matrices;
 use super::{binary, text};
 use crate::error::{Error, Result};
 use crate::input::MatrixRole;
-use crate::input::assembled::Collector;
+use crate::input::assembled::{Collector, complete};
 use crate::input::file_start::FileStart;
 use crate::input::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
 use crate::input::mode_format::{ModeSource, ReadModes};
@@ -88,6 +88,9 @@ fn read<'a, F: Matrices<'a>>(source: &'a MatrixSource<'a>, open: fn(&'a Path) ->
         entries.push(row, col, value)
     })?;
     let mut input = entries.into_matrix(source, (n, declared), file.digest()?)?;
+    if form == Form::Symmetric && source.triangle.is_none() {
+        complete(&mut input)?;
+    }
     input.digits = input.digits.at_most(head.digits());
     Ok(ReadMatrix::with_size(input))
 }

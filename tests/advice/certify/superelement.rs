@@ -266,3 +266,32 @@ fn matrices_of_another_size_are_refused() {
     let ended = certify(&place, "--hz 1,2").expect(ExitCode::Usage);
     assert!(ended.err.contains("--reduced-stiffness"), "{}", ended.err);
 }
+
+/// A band that ends below the first elastic mode has no mode of the component in it, and motions without stiffness are the same ones.
+#[test]
+fn a_band_below_the_first_elastic_mode_counts_no_more_motions_without_stiffness() {
+    let place = Place::with(&steel_brick());
+    Foreign::craig_bampton(&steel_brick(), &interface(), 12).write(&place);
+    for band in ["0,1", "0,10"] {
+        let ended = certify(&place, &format!("--json --band {band}")).expect(ExitCode::Done);
+        let found: Value = serde_json::from_str(&ended.out).expect("JSON");
+        assert_eq!((&found["n_rigid"], &found["n_without_stiffness"]), (&6.into(), &6.into()), "{found}");
+    }
+}
+
+/// Courant and Fischer count from the lowest eigenvalue of all: a basis that lacks a rigid-body motion has one elastic mode more, and none of its
+/// frequencies is too low for that.
+#[test]
+fn a_basis_without_a_rigid_body_motion_has_no_frequency_too_low() {
+    let [k, m] = matrices(&steel_brick());
+    let (lambda, shapes) = eigen(k.as_ref(), m.as_ref(), 1e6);
+    let (first, far) = (lambda[6], lambda[40]);
+    // The quotient of the first column, of unit mass in both parts, is 0.7 of the first elastic eigenvalue.
+    let share = (0.7 * first / (far - 0.7 * first)).sqrt();
+    let mixed = |i: usize, j: usize| shapes[(i, j)] + if j == 0 { share * shapes[(i, 40)] } else { 0.0 };
+    let foreign = Foreign::of(&steel_brick(), Mat::from_fn(shapes.nrows(), 18, mixed));
+    let found = document(&steel_brick(), &foreign, ExitCode::CheckFailed);
+    assert_eq!(found["n_without_stiffness"], 5, "{found}");
+    assert_eq!(super::verdict(&found, "M-24"), Some("pass"), "{found}");
+    assert_eq!(super::verdict(&found, "M-11"), Some("fail"), "{found}");
+}

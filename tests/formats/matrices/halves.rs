@@ -52,7 +52,8 @@ fn pairs_given_once_in_either_order_stand_for_both() {
     let n_below = once.iter().filter(|(row, col, _)| row > col).count();
     assert!(n_above > 1 && n_below > 1, "{once:?}");
     let general = written(&folder.path().join("general.mtx"), "general", &once);
-    let mut files = vec![written(&folder.path().join("k.sti"), "", &once), general.clone()];
+    let symmetric = written(&folder.path().join("symmetric.mtx"), "symmetric", &once);
+    let mut files = vec![written(&folder.path().join("k.sti"), "", &once), general.clone(), symmetric];
     for name in ["k.npz", "k.op4", "k.mat"] {
         let output = folder.path().join(name);
         converted(&general, &output);
@@ -67,16 +68,56 @@ fn pairs_given_once_in_either_order_stand_for_both() {
     }
 }
 
-/// Where a triangle is named, it holds, and nothing is taken from the other one.
+/// Where a triangle is named, it holds for pairs that are given twice; what is given once is not lost, whichever triangle it is in.
 #[test]
 fn a_triangle_that_is_named_holds() {
     let folder = tempfile::tempdir().expect("a folder");
-    let file = written(&folder.path().join("k.sti"), "", &either_order());
-    let mut job = job(&file, &fixture("m.mtx"));
-    job.symmetric = Some(supel::sparse::Triangle::Lower);
-    let input = read(&job).expect("the lower triangle");
-    assert!(input.notes.iter().any(|note| note.to_string().contains("lower triangle was taken")), "{:?}", input.notes);
-    assert!(input.stiffness.matrix.nnz() < pair("k.mtx", "m.mtx").expect("whole").stiffness.matrix.nnz());
+    let reference = pair("k.mtx", "m.mtx").expect("the reference").stiffness.matrix;
+    let mut partly = either_order();
+    let n_pairs = partly.iter().filter(|(row, col, _)| row != col).count();
+    let (row, col, value) = *partly.iter().find(|(row, col, _)| row > col).expect("an entry below");
+    for twice in [None, Some(7.0 * value)] {
+        partly.extend(twice.map(|value| (col, row, value)));
+        for head in ["", "general", "symmetric"] {
+            let file = written(&folder.path().join("k.mtx"), head, &partly);
+            let mut job = job(&file, &fixture("m.mtx"));
+            job.layout = head.is_empty().then_some(supel::job::Layout::Coordinate);
+            job.symmetric = Some(supel::sparse::Triangle::Lower);
+            let input = read(&job).unwrap_or_else(|error| panic!("{head}: {error}"));
+            assert!(input.stiffness.matrix == reference, "{head}: {:?}", input.stiffness.matrix);
+            let told: Vec<String> = input.notes.iter().map(ToString::to_string).collect();
+            let is_told = |words: &str| told.iter().any(|note| note.contains(words));
+            assert!(is_told("the lower triangle was taken for both"), "{told:?}");
+            assert!(
+                is_told(&format!("of {} pairs of rows that are given once", n_pairs - usize::from(twice.is_some()))),
+                "{told:?}"
+            );
+            assert_eq!(is_told("at 1 position above the diagonal differs"), twice.is_some(), "{told:?}");
+        }
+    }
+}
+
+/// A file that declares its matrix symmetric, of which it gives each pair of rows once or twice: what stands once stands for both, and two values
+/// are refused, also by `convert`.
+#[test]
+fn pairs_of_symmetric_matrices_of_nastran() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = folder.path().join("out.npz");
+    let head = "DMIG,K,0,6,1\nDMIG,K,1,1,,1,1,4.\nDMIG,K,2,1,,2,1,5.\nDMIG,K,3,1,,3,1,6.\nDMIG,K,1,1,,2,1,-1.\n";
+    let written = |more: &str| {
+        let path = folder.path().join("k.bdf");
+        std::fs::write(&path, format!("{head}{more}")).expect("written");
+        path
+    };
+    let once = "DMIG,K,2,1,,3,1,-2.\n";
+    for more in [String::new(), "DMIG,K,2,1,,1,1,-1.\n".to_owned(), "DMIG,K,2,1,,1,1,-1.0000001\n".to_owned()] {
+        let answer = converted(&written(&(more + once)), &output);
+        assert!(answer.contains("7 entries"), "{answer}");
+    }
+    let ended = supel(&["convert", text(&written("DMIG,K,2,1,,1,1,-2.\n")), text(&output)]);
+    let told = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert_eq!(ended.status.code(), Some(3), "{told}");
+    assert!(told.contains("E-DOUBLE-TRIANGLE") && told.contains("(2, 1) and (1, 2)"), "{told}");
 }
 
 /// One entry more makes a matrix that is neither: it is refused.

@@ -110,3 +110,48 @@ fn decks_end_at_enddata() {
     folder.write("end.bdf", format!("{SECOND}ENDDATA\n"));
     assert_whole(&folder.write("deck.bdf", format!("{HEAD}INCLUDE 'end.bdf'\nDMIG,K,1,2,,1,2,77.\n")));
 }
+
+/// A card of fields of eight columns.
+fn small(fields: &[&str]) -> String {
+    fields.iter().map(|field| format!("{field:<8}")).collect::<String>() + "\n"
+}
+
+/// A line continues the one before it. Where names say that it belongs to another one, nothing is read.
+#[test]
+fn continuations_belong_to_the_line_before_them() {
+    let folder = Folder::new();
+    let first = |next| small(&["DMIG", "K", "1", "1", "", "1", "1", "4.", "", next]);
+    let column = |next| small(&["DMIG", "K", "2", "1", "", "2", "1", "5.", "", next]);
+    let more = |name| small(&[name, "2", "1", "-1."]);
+    let free = "DMIG,K,1,1,,1,1,4.,,+A1\n";
+    let large = "DMIG*   K                              1               1                *C1\n\
+                 *C2                    1               1 4.\n";
+    let written = |cards: &[String]| folder.write("k.bdf", format!("DMIG,K,0,6,1\n{}", cards.concat()));
+    let kept = |next, name| [first(next), more(name), column("")];
+    let mut decks: Vec<Vec<String>> = [("+A1", "+A1"), ("", ""), ("+", "+"), ("", "+A1"), ("+A1", ""), ("+A1", "+")]
+        .map(|(a, b)| kept(a, b).to_vec())
+        .to_vec();
+    decks.push(vec![free.into(), "+A1,2,1,-1.\n".into(), column("")]);
+    decks.push(vec![first("+A1"), "$\n\n".into(), more("+A1"), column("")]);
+    for cards in decks {
+        let entries = read(&written(&cards), None).unwrap_or_else(|error| panic!("{cards:?}: {error}")).input.matrix;
+        assert_eq!(
+            [(0, 0), (0, 1), (1, 1)].map(|(row, col)| entries.get(row, col).copied()),
+            [Some(4.0), Some(-1.0), Some(5.0)]
+        );
+    }
+    for (cards, line) in [
+        (vec![first("+A1"), column(""), more("+A1")], 2),
+        (vec![more("+A1"), first("+A1"), column("")], 3),
+        (vec![first("+A1"), column("+B1"), more("+A1")], 2),
+        (vec![first("+A1"), more("+ZZ"), column("")], 3),
+        (vec![free.into(), column(""), "+A1,2,1,-1.\n".into()], 2),
+        (vec![large.into(), column("")], 3),
+    ] {
+        let error = read(&written(&cards), None).expect_err("a continuation of another line").to_string();
+        assert!(
+            error.contains(&format!("line {line}")) && error.contains("write them behind their entries"),
+            "{error}"
+        );
+    }
+}

@@ -70,14 +70,14 @@ fn dmig_of_other_kinds() {
     assert_says(&wide, "E-MATRIX-UNREAD", &["form 2", "column node 9 ux", "rectangular"]);
     let deck = error_of("a.bdf", "SOL 103\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\nENDDATA\n");
     assert_says(&deck, "E-NO-MATRIX", &["a.bdf", "DMIG", "EXTSEOUT"]);
-    // Entries on both sides that differ stay what they are: the model refuses them.
+    // A symmetric matrix has one value for each pair.
     let text = std::fs::read_to_string(fixture("free.bdf")).expect("a fixture").replacen("-0.500000", "-0.600000", 1);
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("free.bdf");
     std::fs::write(&path, text).expect("written");
     let named = folder.path().join("free.bdf:K");
-    let matrix = read(&job(&named, &named)).expect("both triangles").stiffness.matrix;
-    assert_eq!((matrix.get(1, 0), matrix.get(0, 1)), (Some(&-0.6), Some(&-0.5)));
+    let error = read(&job(&named, &named)).expect_err("two values");
+    assert_says(&error, "E-DOUBLE-TRIANGLE", &["(2, 1) and (1, 2)", "give one value of both"]);
 }
 
 #[test]

@@ -54,7 +54,10 @@ fn i_06_half_a_triangle_missing() {
         assert_refused(&place, &reduce_chain(&place), "E-UNSYMMETRIC", &parts);
         let ended = place.reduce(&place.matrix_flags(), &format!("{CHAIN} --symmetric {triangle}"));
         assert_done(&place, &ended, &[]);
-        assert!(notes_say(&place, &format!("the {triangle} triangle was taken for both; what stands at 1 position")));
+        assert!(notes_say(
+            &place,
+            &format!("the {triangle} triangle was taken for both; of 1 pair of rows that is given once")
+        ));
         assert_is_the_chain(&place);
     }
 }
