@@ -160,19 +160,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn turned_rows_know_what_rounding_of_a_stiff_direction_makes() {
-        let six_digits = Rounding { absolute: 0.5, ..Rounding::relative(0.5e-5) };
-        let turned = six_digits.turned(TurnedRoundings { enlargement: 40.0, of_axes: 1e-4 });
-        // Relative to the ends: 40 of its own and what the axes make; three times half a unit of fixed point.
-        assert!(
-            (turned.of_entry(0.0, 1e6) / 300.0 - 1.0).abs() < 1e-12 && turned.of_entry(0.0, 0.0) == 1.5,
-            "{turned:?}"
-        );
-        let binary = Rounding::BINARY.turned(TurnedRoundings { enlargement: 40.0, of_axes: 0.0 });
-        assert!(binary.is_of_parts && !binary.is_coarse(), "{binary:?}");
-    }
-
-    #[test]
     fn half_a_unit_is_that_of_the_last_digit() {
         // Four digits: 1.234e3 is known to 0.5, 9.876e-5 to 0.5e-8.
         let precision = 0.5e-3;

@@ -2,6 +2,7 @@
 
 use supel::error::{Error, ErrorClass};
 use supel::model::{Finding, Model};
+use supel::sparse::{Rounding, TurnedRoundings};
 use supel_models as models;
 use supel_models::model::Entry;
 use supel_models::transform::{join, scaled, supported};
@@ -230,4 +231,15 @@ fn mass_negative_by_rounding_is_a_finding() {
     model.mass = with_entry(&model.mass, (2, 2), -1e-17);
     let model = Model::new(input(&model)).expect("a negative rounding");
     assert_eq!(model.findings, [Finding::NegativeMassByRounding { n_rows: 1 }]);
+}
+
+/// Rows that were turned are sums: the rounding of a stiff direction reaches the others, and what the axes may be off by all of them.
+#[test]
+fn turned_rows_know_what_rounding_of_a_stiff_direction_makes() {
+    let six_digits = Rounding { absolute: 0.5, ..Rounding::relative(0.5e-5) };
+    let turned = six_digits.turned(TurnedRoundings { enlargement: 40.0, of_axes: 1e-4 });
+    // Relative to the ends: 40 of its own and what the axes make; three times half a unit of fixed point.
+    assert!((turned.of_entry(0.0, 1e6) / 300.0 - 1.0).abs() < 1e-12 && turned.of_entry(0.0, 0.0) == 1.5, "{turned:?}");
+    let binary = Rounding::BINARY.turned(TurnedRoundings { enlargement: 40.0, of_axes: 0.0 });
+    assert!(binary.is_of_parts && !binary.is_coarse(), "{binary:?}");
 }

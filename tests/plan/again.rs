@@ -35,7 +35,7 @@ fn what_is_taken_for_granted_stays_so() {
     for (reduction, scene) in of_scene {
         let made = Case::new(PATCHES, reduction, scene).made();
         let own = &made.file.metadata().validity;
-        assert_eq!(own.assumptions.len(), 1, "{scene}");
+        assert!(!own.assumptions.is_empty(), "{scene}");
         for again in made_again(&made.place) {
             let validity = &again.metadata().validity;
             assert_eq!((&validity.assumptions, validity.gravity), (&own.assumptions, own.gravity), "{scene}");

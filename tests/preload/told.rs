@@ -61,7 +61,7 @@ fn other_forces_are_another_input() {
     assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
     assert!(ended.out.contains("worst at internal_forces"), "{}", ended.out);
     let changed = reduced_as_typed();
-    assert!(changed.err.contains("the input \"internal_forces\" has changed"), "{}", changed.err);
+    assert!(changed.err.contains("the input \"internal forces\" has changed"), "{}", changed.err);
 }
 
 /// What the preload costs a rotation is no spring to the ground.
