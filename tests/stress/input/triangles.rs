@@ -50,7 +50,11 @@ fn i_05_one_triangle_or_both() {
 fn i_06_half_a_triangle_missing() {
     for (triangle, missing) in [("lower", (3, 4)), ("upper", (4, 3))] {
         let place = with_entries("general", |row, col| (row, col) != missing);
-        let parts = ["7.1e-1 of its rows", "where the file lacks part of a triangle", "model.symmetric = \"lower\" or \"upper\""];
+        let parts = [
+            "7.1e-1 of its rows",
+            "where the file lacks part of a triangle",
+            "model.symmetric = \"lower\" or \"upper\"",
+        ];
         assert_refused(&place, &reduce_chain(&place), "E-UNSYMMETRIC", &parts);
         let ended = place.reduce(&place.matrix_flags(), &format!("{CHAIN} --symmetric {triangle}"));
         assert_done(&place, &ended, &[]);
