@@ -19,7 +19,7 @@ use supel_runtime::MatrixKind;
 use crate::basis::Basis;
 use crate::damping::Damping;
 use crate::dense;
-use crate::modes::{MAX_UNSEEN_COUPLING, Retained, clusters};
+use crate::modes::{Coupling, MAX_UNSEEN_COUPLING, Retained, clusters};
 use crate::partition::Partition;
 use crate::plan::Unseen;
 use crate::reduction::Reduction;
@@ -45,6 +45,13 @@ pub struct UnseenMode {
 }
 
 impl UnseenMode {
+    /// A mode with what it contributes among all; none where it is not among them.
+    pub(crate) fn of(mode: usize, coordinate: usize, couplings: &[Coupling], tie: f64) -> Option<Self> {
+        let largest = dense::worst(couplings.iter().map(|coupling| coupling.size));
+        let own = couplings.get(mode)?;
+        Some(Self { mode, coordinate, coupling: own.share, rounding: own.rounding / largest, tie })
+    }
+
     /// Why it is left out, in words.
     pub fn reason(&self) -> String {
         format!(
@@ -87,10 +94,7 @@ pub fn unseen_modes(
         if left_out.len() == n_before {
             let of_mode = |at: &usize| {
                 let mode = basis.coordinates[*at - n_b].mode()?;
-                let (coupling, largest) =
-                    (couplings[mode], dense::worst(couplings.iter().map(|coupling| coupling.size)));
-                let (share, rounding) = (coupling.share, coupling.rounding / largest);
-                Some(UnseenMode { mode, coordinate: *at, coupling: share, rounding, tie: tie(&matrices, *at, &all) })
+                UnseenMode::of(mode, *at, couplings, tie(&matrices, *at, &all))
             };
             return all.iter().filter_map(of_mode).collect();
         }

@@ -106,7 +106,7 @@ fn first_elastic(component: Component<'_>, job: &ReductionJob) -> Result<Option<
 /// λ of the lowest elastic mode of a component, wherever the band of the job ends; none where it moves as a rigid body only.
 ///
 /// # Errors
-/// Those of the search.
+/// What the search refuses.
 pub(super) fn lowest_elastic(component: Component<'_>, job: &ReductionJob) -> Result<Option<f64>> {
     if component.rigid.count() >= component.partition.n_dofs() {
         return Ok(None);

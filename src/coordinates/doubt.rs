@@ -90,10 +90,9 @@ fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[D
 /// Whether a rotation makes a force at a row that is noticeable among the terms of this row alone: forces of a soft part are nothing among
 /// those of a stiff one, and its frequencies depend on them all the same.
 fn is_out_of_place(motions: &Motions<'_>, row: usize, (rotation, lever_rounding): (usize, f64)) -> bool {
-    let scale = motions.scale_of(row);
-    let displacement = |motion: usize| motions.forces[(row, motion)].abs() / scale;
-    let noise = (0..FIRST_ROTATION).map(displacement).fold(motions.rounding_at(row).max(lever_rounding), f64::max);
-    scale > 0.0 && displacement(rotation) > FIVE_DIGITS.max(NOTICEABLE * noise)
+    let of_translations = (0..FIRST_ROTATION).map(|motion| motions.displacement(row, motion));
+    let noise = of_translations.fold(motions.rounding_at(row).max(lever_rounding), f64::max);
+    motions.displacement(row, rotation) > FIVE_DIGITS.max(NOTICEABLE * noise)
 }
 
 /// Whether a rotation costs more than rounding, and more than soft springs to ground can hold of it. Those hold displacements by unit
@@ -146,9 +145,7 @@ impl Place {
     pub(super) fn of(motions: &Motions<'_>, rows: &[usize], columns: &[usize]) -> Self {
         let mut of_node: BTreeMap<i64, (f64, usize)> = BTreeMap::new();
         for row in rows.iter().copied() {
-            let force = columns.iter().map(|j| motions.forces[(row, *j)].abs()).fold(0.0, f64::max);
-            let terms = motions.scale_of(row);
-            let displacement = if terms > 0.0 { force / terms } else { 0.0 };
+            let displacement = columns.iter().map(|j| motions.displacement(row, *j)).fold(0.0, f64::max);
             let dof = motions.model.dofs.as_ref().and_then(|dofs| dofs[row]);
             let label = dof.map_or(row as i64, |dof| dof.node);
             let node = of_node.entry(label).or_insert((displacement, row));

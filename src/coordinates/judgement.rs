@@ -22,8 +22,8 @@ const SOFTLY_HELD: f64 = 1e-6;
 /// normal numbers is 7 times the median one, and digits may be lost unevenly by some 10. A node out of place by a hundredth
 /// stands out by 10³ to 10⁴.
 const EVEN: f64 = 100.0;
-/// Displacement out of place that coordinates of three digits leave, which is as much as belongs to any model of the same nodes: a map of other nodes or axes moves
-/// them by a hundredth or more.
+/// Displacement out of place that coordinates of three digits leave, which is as much as belongs to any model of the same nodes: a map of
+/// other nodes or axes moves them by a hundredth or more.
 const THREE_DIGITS: f64 = 2e-3;
 
 /// What is known of all bodies once there is a doubt.

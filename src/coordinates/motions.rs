@@ -109,6 +109,12 @@ impl<'a> Motions<'a> {
         (0..6).fold(0.0, |max: f64, j| max.max(self.terms[(row, j)]))
     }
 
+    /// The force of a motion at a row relative to its terms, as a displacement in units of the size of the body; nothing at a row without.
+    pub(super) fn displacement(&self, row: usize, motion: usize) -> f64 {
+        let scale = self.scale_of(row);
+        if scale > 0.0 { self.forces[(row, motion)].abs() / scale } else { 0.0 }
+    }
+
     /// ‖F‖ over some rows of a body relative to ‖T‖ over all its rows, for one motion.
     pub(super) fn residual(&self, body: &Body, rows: &[usize], motion: usize) -> f64 {
         let norm = |values: &Mat<f64>, rows: &[usize]| {

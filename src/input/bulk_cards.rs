@@ -150,8 +150,7 @@ fn own_name(name: &[u8]) -> &[u8] {
 /// The error of a continuation that does not stand behind its entry.
 fn out_of_order(place: &Place, found: String, expected: String) -> Error {
     let expected = format!("{expected}: continuations out of order are not read, write them behind their entries");
-    let (path, place) = (place.path.to_path_buf(), format!("line {}", place.line));
-    Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
+    wrong_line(place, found, expected)
 }
 
 /// The fields behind the name of an entry; none for another one.
@@ -209,8 +208,11 @@ fn fixed_line(line: &[u8], width: Width) -> Line {
 
 /// The error of a field.
 pub(super) fn wrong(place: &Place, found: &[u8], expected: &str) -> Error {
-    let found = format!("{:?}", String::from_utf8_lossy(found));
-    let (path, place, expected) = (place.path.to_path_buf(), format!("line {}", place.line), expected.to_owned());
+    wrong_line(place, format!("{:?}", String::from_utf8_lossy(found)), expected.to_owned())
+}
+
+fn wrong_line(place: &Place, found: String, expected: String) -> Error {
+    let (path, place) = (place.path.to_path_buf(), format!("line {}", place.line));
     Error::MatrixFormat { path, format: FORMAT, place, found, expected: expected.into() }
 }
 

@@ -52,9 +52,9 @@ pub enum Orientation {
 /// Which axes the values at a node are along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Along {
-    /// Those of the rows of K and M in their files.
+    /// The axes of the rows of K and M in their files.
     Rows,
-    /// Those of the model.
+    /// The axes of the model.
     Model,
 }
 

@@ -8,13 +8,11 @@ use super::bulk_lines::digest_with_included;
 use super::calculix::rebuilt;
 use super::common_rows::RowLabels;
 use super::format::{DirectionBase, ReadDofs, ReadNodes};
-use super::member::split_member;
-use super::nastran_frames::grid_frames;
 use super::node_frames::NodeFrames;
 use super::{InputNote, dof_map, formats};
 use crate::dofs::{DofMap, Nodes};
 use crate::error::{Error, Result};
-use crate::job::{Layout, ModelJob};
+use crate::job::ModelJob;
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::MAX_ORDER;
 
@@ -35,16 +33,6 @@ pub(super) struct SaidFrames {
     pub(super) by_map: Result<Option<NodeFrames>>,
     /// By the deck of the nodes: whether rows are along them depends on who writes the matrices.
     pub(super) by_nodes: Option<NodeFrames>,
-}
-
-impl SaidFrames {
-    /// These with what the deck of a DMIG says of its own rows, where no map says it.
-    pub(super) fn with_grids_of(self, model: &ModelJob, layout: Option<Layout>) -> Self {
-        match (model.dofs.is_none(), layout) {
-            (true, Some(Layout::Dmig)) => Self { by_map: grid_frames(&split_member(&model.stiffness).0), ..self },
-            _ => self,
-        }
-    }
 }
 
 /// Reads the dof map and the nodes of a model of n rows, and compares them. Where no map is given it is the one of the rows that the

@@ -86,7 +86,6 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let MapAndNodes { mut dofs, nodes, said } =
         map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
     let layout = stiffness.layout;
-    let said = said.with_grids_of(model, layout);
     let turning = turning(model, (dofs.as_ref(), layout), said, allowance, (&mut digests, &mut notes))?;
     let turning = turning.as_ref();
     stiffness = turned(stiffness, turning);

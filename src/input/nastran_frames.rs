@@ -114,29 +114,30 @@ fn grids(path: &Path) -> Result<BTreeMap<i64, Grid>> {
     Ok(grids)
 }
 
+/// The entries that define systems by points, and by grid points.
+const KINDS: [([&str; 2], SystemKind); 3] = [
+    (["CORD2R", "CORD1R"], SystemKind::Rectangular),
+    (["CORD2C", "CORD1C"], SystemKind::Cylindrical),
+    (["CORD2S", "CORD1S"], SystemKind::Spherical),
+];
+
 fn systems(path: &Path) -> Result<BTreeMap<i64, Definition>> {
+    const LABEL: &str = "the label of a coordinate system";
     let mut systems = BTreeMap::new();
-    for (name, kind) in
-        [("CORD2R", SystemKind::Rectangular), ("CORD2C", SystemKind::Cylindrical), ("CORD2S", SystemKind::Spherical)]
-    {
-        let mut cards = Cards::open(path, name)?;
+    for ([by_points, by_grids], kind) in KINDS {
+        let mut cards = Cards::open(path, by_points)?;
         while let Some(card) = cards.advance()? {
-            let label = number(&card, 0, None, "the label of a coordinate system")?;
             let reference = number(&card, 1, Some(0), "a reference coordinate system (RID)")?;
             let defined = Defined::ByPoints(reference, [point(&card, 2)?, point(&card, 5)?, point(&card, 8)?]);
-            systems.insert(label, Definition { kind, defined, place: card.place });
+            systems.insert(number(&card, 0, None, LABEL)?, Definition { kind, defined, place: card.place });
         }
-    }
-    for (name, kind) in
-        [("CORD1R", SystemKind::Rectangular), ("CORD1C", SystemKind::Cylindrical), ("CORD1S", SystemKind::Spherical)]
-    {
-        let mut cards = Cards::open(path, name)?;
+        let mut cards = Cards::open(path, by_grids)?;
         while let Some(card) = cards.advance()? {
             for first in [0, 4].into_iter().filter(|first| !field(&card, *first).is_empty()) {
-                let label = number(&card, first, None, "the label of a coordinate system")?;
                 let grid = |at: usize| number(&card, first + at, None, "a grid point");
                 let defined = Defined::ByGrids([grid(1)?, grid(2)?, grid(3)?]);
-                systems.insert(label, Definition { kind, defined, place: card.place.clone() });
+                let place = card.place.clone();
+                systems.insert(number(&card, first, None, LABEL)?, Definition { kind, defined, place });
             }
         }
     }

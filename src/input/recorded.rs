@@ -42,21 +42,14 @@ const DOFS_DATA: &str = "dofs_data";
 
 /// The files that a job names, by the roles under which their digests are recorded.
 fn files_by_role(job: &Job) -> BTreeMap<String, PathBuf> {
-    let model = &job.model;
+    let of_model = job.model.files().map(|(role, path)| (role, Some(path.as_path())));
     let quantities = job.write.quantities.as_ref();
-    let named = [
-        ("stiffness", Some(model.stiffness.as_path())),
-        ("mass", model.mass.as_deref()),
-        ("dofs", model.dofs.as_deref()),
-        ("nodes", model.nodes.as_deref()),
-        ("frames", model.frames.as_deref()),
-        ("constraints", model.constraints.as_deref()),
-        ("internal_forces", model.internal_forces.as_deref()),
+    let others = [
         ("modes", job.reduction.modes_file()),
         ("quantities", quantities.map(|rows| rows.matrix.as_path())),
         ("quantity_names", quantities.map(|rows| rows.names.as_path())),
     ];
-    let named = named.into_iter().filter_map(|(role, path)| Some((role.to_owned(), file_of(path?))));
+    let named = of_model.chain(others).filter_map(|(role, path)| Some((role.to_owned(), file_of(path?))));
     let loads = job.loads.iter().filter_map(|load| Some((format!("load {}", load.name), load.file.clone()?)));
     let matrices = job.matrices.iter().map(|matrix| (format!("matrix {}", matrix.name), file_of(&matrix.file)));
     named.chain(loads).chain(matrices).collect()

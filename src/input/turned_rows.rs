@@ -1,8 +1,12 @@
 //! Rows of nodes that have axes of their own, turned to the axes of the model when they are read.
 
+use std::collections::BTreeMap;
+
 use super::allowance::Allowance;
 use super::constraint_file::ConstraintRows;
 use super::map_and_nodes::{Digests, SaidFrames};
+use super::member::split_member;
+use super::nastran_frames::grid_frames;
 use super::node_frames::{NodeFrames, node_frames};
 use super::{FurtherMatrix, InputNote, LoadColumn, MatrixInput, ModeColumns, QuantityRows};
 use crate::dofs::DofMap;
@@ -13,11 +17,8 @@ use crate::sparse::{Turned, Turning};
 
 /// Which rows of a model are along axes of their own: those of the file of the job, otherwise those that map or deck say.
 ///
-/// Abaqus writes rows along the axes of `*TRANSFORM`, CalculiX along those of the model; labelled matrices are of Abaqus. Where nothing
-/// tells which program it was, a note says so.
-///
 /// # Errors
-/// Those of reading the file; [`Error::FrameRows`]; [`Error::FrameNodes`]; [`Error::DeckUnsupported`] for a deck with parts.
+/// What reading the file refuses; [`Error::FrameRows`]; [`Error::FrameNodes`]; [`Error::DeckUnsupported`] for a deck with parts.
 pub(super) fn turning(
     model: &ModelJob,
     (dofs, layout): (Option<&DofMap>, Option<Layout>),
@@ -25,43 +26,65 @@ pub(super) fn turning(
     allowance: &Allowance,
     (digests, notes): (&mut Digests, &mut Vec<InputNote>),
 ) -> Result<Option<Turning>> {
-    let Some(path) = &model.frames else {
-        let frames = match (said.by_map?, said.by_nodes) {
-            (Some(frames), _) => frames,
-            (None, Some(frames)) if layout == Some(Layout::AbaqusLabels) => frames,
-            (None, Some(NodeFrames { place: (path, line), .. })) => {
-                notes.push(InputNote::Transformed { path, line });
-                return Ok(None);
-            }
-            (None, None) => return Ok(None),
-        };
-        if frames.axes.is_empty() {
-            let ((path, line), found) = (frames.place, "*TRANSFORM in a deck with parts".to_owned());
-            let advice = "give the axes of the nodes with `model.frames`";
-            return Err(Error::DeckUnsupported { path, line, found, advice });
+    let frames = match &model.frames {
+        Some(path) => {
+            let (frames, of_frames) = unchanged(path, || Ok((node_frames(path, allowance)?, digest(path)?)))?;
+            digests.insert("frames", of_frames);
+            Some(frames)
         }
-        let turned = dofs.map(|dofs| frames.turning(dofs)).transpose()?.filter(|(_, n_nodes)| *n_nodes > 0);
-        return Ok(turned.map(|(turning, n_nodes)| {
-            notes.push(InputNote::Turned { path: frames.place.0, n_nodes });
-            turning
-        }));
+        None => said_frames(model, layout, said, notes)?,
     };
-    let (frames, of_frames) = unchanged(path, || Ok((node_frames(path, allowance)?, digest(path)?)))?;
-    digests.insert("frames", of_frames);
-    let n_nodes = frames.axes.len();
-    let none = |found| Error::FrameNodes { path: path.clone(), n_nodes, found };
-    let dofs = dofs.ok_or_else(|| none("none is known without a dof map"))?;
-    let (turning, n_nodes) = frames.turning(dofs)?;
-    if n_nodes == 0 {
-        return Err(none("none has rows"));
+    let Some(frames) = frames else { return Ok(None) };
+    let turned = dofs.map(|dofs| frames.turning(dofs)).transpose()?;
+    if let Some((turning, n_nodes)) = turned.filter(|(_, n_nodes)| *n_nodes > 0) {
+        notes.push(InputNote::Turned { path: frames.place.0, n_nodes });
+        return Ok(Some(turning));
     }
-    notes.push(InputNote::Turned { path: path.clone(), n_nodes });
-    Ok(Some(turning))
+    // A deck may have nodes without rows; a table of none of the model is that of another one.
+    match &model.frames {
+        Some(path) => {
+            let found = if dofs.is_some() { "none has rows" } else { "none is known without a dof map" };
+            Err(Error::FrameNodes { path: path.clone(), n_nodes: frames.axes.len(), found })
+        }
+        None => Ok(None),
+    }
+}
+
+/// The axes that map or deck say rows to be along.
+///
+/// Abaqus writes rows along the axes of `*TRANSFORM`, CalculiX along those of the model; labelled matrices are of Abaqus. Where nothing
+/// tells which program it was, a note says so.
+fn said_frames(
+    model: &ModelJob,
+    layout: Option<Layout>,
+    said: SaidFrames,
+    notes: &mut Vec<InputNote>,
+) -> Result<Option<NodeFrames>> {
+    let by_map = match (model.dofs.is_none(), layout) {
+        // The deck of a DMIG says what its own rows are.
+        (true, Some(Layout::Dmig)) => grid_frames(&split_member(&model.stiffness).0)?,
+        _ => said.by_map?,
+    };
+    match (by_map, said.by_nodes) {
+        (Some(frames), _) => Ok(Some(frames)),
+        (None, Some(frames)) if layout == Some(Layout::AbaqusLabels) => {
+            if frames.axes.is_empty() {
+                let ((path, line), found) = (frames.place, "*TRANSFORM in a deck with parts".to_owned());
+                let advice = "give the axes of the nodes with `model.frames`";
+                return Err(Error::DeckUnsupported { path, line, found, advice });
+            }
+            Ok(Some(frames))
+        }
+        (None, frames) => {
+            notes.extend(frames.map(|NodeFrames { place: (path, line), .. }| InputNote::Transformed { path, line }));
+            Ok(None)
+        }
+    }
 }
 
 /// What has rows of the model.
 pub(super) trait Turn {
-    /// The same along the axes of the model.
+    /// What it is along the axes of the model.
     #[must_use]
     fn turned(self, turning: &Turning) -> Self;
 }
@@ -103,7 +126,7 @@ impl Turn for ModeColumns {
 
 impl Turn for QuantityRows {
     fn turned(mut self, turning: &Turning) -> Self {
-        let mut of_quantity: std::collections::BTreeMap<u32, Vec<(u32, f64)>> = std::collections::BTreeMap::new();
+        let mut of_quantity: BTreeMap<u32, Vec<(u32, f64)>> = BTreeMap::new();
         self.entries
             .iter()
             .for_each(|(quantity, row, value)| of_quantity.entry(*quantity).or_default().push((*row, *value)));

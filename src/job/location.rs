@@ -43,10 +43,7 @@ impl Job {
     }
 
     fn has_inputs_in(&self, folder: &Path) -> bool {
-        let model = &self.model;
-        let of_model = [&model.dofs, &model.nodes, &model.frames, &model.constraints, &model.internal_forces];
-        let of_model = of_model.map(Option::as_ref);
-        let files = [Some(&model.stiffness), model.mass.as_ref()].into_iter().chain(of_model);
+        let files = self.model.files().map(|(_, path)| Some(path));
         let of_loads = self.loads.iter().map(|load| load.file.as_ref());
         let of_matrices = self.matrices.iter().map(|matrix| Some(&matrix.file));
         let of_quantities = self.write.quantities.iter().flat_map(|rows| [Some(&rows.matrix), Some(&rows.names)]);

@@ -13,7 +13,7 @@ use super::location::Holder;
 use super::mechanisms::Mechanisms;
 use super::reduction::ModesJob;
 use super::scene::SceneJob;
-use super::types::{Certify, ConstraintsToGround, Job, ModelState, Skip};
+use super::types::{Certify, ConstraintsToGround, Job, ModelJob, ModelState, Skip};
 use super::{document, validation};
 use crate::error::{Error, Result};
 
@@ -162,6 +162,22 @@ impl Job {
         let of_loads = self.loads.iter_mut().map(|load| ("load.file", load.file.as_mut()));
         let of_matrices = self.matrices.iter_mut().map(|matrix| ("matrix.file", Some(&mut matrix.file)));
         paths.into_iter().chain(of_loads).chain(of_matrices).filter_map(|(key, path)| Some((key, path?)))
+    }
+}
+
+impl ModelJob {
+    /// Its files by the keys of the job, which are the roles that their digests are recorded under.
+    pub fn files(&self) -> impl Iterator<Item = (&'static str, &PathBuf)> {
+        let named = [
+            ("stiffness", Some(&self.stiffness)),
+            ("mass", self.mass.as_ref()),
+            ("dofs", self.dofs.as_ref()),
+            ("nodes", self.nodes.as_ref()),
+            ("frames", self.frames.as_ref()),
+            ("constraints", self.constraints.as_ref()),
+            ("internal_forces", self.internal_forces.as_ref()),
+        ];
+        named.into_iter().filter_map(|(role, path)| Some((role, path?)))
     }
 }
 

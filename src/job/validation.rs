@@ -108,19 +108,8 @@ fn model(job: &Job) -> Result<()> {
     if model.mass.is_none() && !job.does_without_mass() {
         return Err(Error::JobMass);
     }
-    let files = [
-        ("model.stiffness", Some(&model.stiffness)),
-        ("model.mass", model.mass.as_ref()),
-        ("model.dofs", model.dofs.as_ref()),
-        ("model.nodes", model.nodes.as_ref()),
-        ("model.frames", model.frames.as_ref()),
-        ("model.constraints", model.constraints.as_ref()),
-        ("model.internal_forces", model.internal_forces.as_ref()),
-    ];
-    for (key, path) in files {
-        if path.is_some_and(|path| path.as_os_str().is_empty()) {
-            return Err(Error::JobEmpty { key: key.to_owned(), expected: "the name of a file" });
-        }
+    if let Some((role, _)) = model.files().find(|(_, path)| path.as_os_str().is_empty()) {
+        return Err(Error::JobEmpty { key: format!("model.{role}"), expected: "the name of a file" });
     }
     match (model.state, &model.internal_forces) {
         (ModelState::Preloaded, None) => return Err(Error::JobPreload { found: "missing" }),

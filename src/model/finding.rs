@@ -6,7 +6,7 @@ use crate::sparse::Rounding;
 
 /// Above this share of the largest entry in asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;
-/// The same relative to the two rows of an entry, which have the rounding of stiffer ones that their sums were condensed from.
+/// Asymmetry relative to the two rows of an entry from which it is a warning: condensed rows have the rounding of stiffer ones.
 const ASYMMETRY_OF_ROWS_WARN: f64 = 1e-9;
 /// Times the median diagonal entry of K above which a row is held or tied by a penalty, whatever it costs: rotations of thick parts in
 /// millimetres and soft joints come to 10⁸ of each other. Smaller ones are named by the digits they take, once there are modes.

@@ -101,7 +101,8 @@ impl ModelFacts {
 
 /// Above this share of its largest entry in asymmetry the matrix is not that of a conservative structure.
 pub const ASYMMETRY_FAIL: f64 = 1e-6;
-/// The same relative to the two rows of an entry. Below it the rows are known to no more than that, which error bars say.
+/// Asymmetry relative to the two rows of an entry above which it is an error. Below it the rows are known to no more than that, which error
+/// bars say.
 pub const ASYMMETRY_OF_ROWS_FAIL: f64 = 1e-3;
 
 impl Model {

@@ -6,8 +6,8 @@
 //! x = C q,  T = T₁C  dependent dofs follow the others: the pencil TᵀKT, TᵀMT has no constraint left
 //! ```
 //! Coefficients are made comparable first, by powers of two: a rotation by the extent of the nodes that it takes part with, or by the lever
-//! of its constraints, a constraint by its largest term. What a patch makes of a constraint is relative to the terms that it sums, so that constraints that the patch
-//! satisfies anyway are rounding and follow from it.
+//! of its constraints, a constraint by its largest term. What a patch makes of a constraint is relative to the terms that it sums, so that
+//! constraints that the patch satisfies anyway are rounding and follow from it.
 
 use std::collections::BTreeMap;
 
@@ -40,7 +40,8 @@ pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(
     let Some(given) = &model.constraints else { return Ok((transformation, 0, Vec::new())) };
     refuse_out_of_range(given)?;
     let ground = constraint_ground::held_motion(model, given)?;
-    let scales = scales(model, given, &transformation);
+    let whole = size(model);
+    let scales = scales(given, &transformation, whole);
     let rows: Vec<Terms> = given.list.iter().map(|row| carried(row, &transformation, &scales)).collect();
     let costs: Vec<Option<u32>> = transformation.dofs.iter().map(|dof| cost(model, dof)).collect();
     let Elimination { dependent, redundant } =
@@ -52,7 +53,12 @@ pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(
         (dof, terms.collect())
     };
     let dependent: BTreeMap<u32, Terms> = dependent.into_iter().map(in_units).collect();
-    refuse_broken(model, given, &rows, &Solved { dofs: &transformation.dofs, scales: &scales, dependent: &dependent })?;
+    refuse_broken(
+        model,
+        (given, &rows),
+        &Solved { dofs: &transformation.dofs, scales: &scales, dependent: &dependent },
+        whole,
+    )?;
     let n_dependent = dependent.len();
     let transformation = transformation.constrained(&dependent);
     if transformation.dofs.is_empty() {
@@ -75,20 +81,26 @@ fn refuse_out_of_range(given: &ConstraintRows) -> Result<()> {
 /// What a displacement of each dof is measured in: one, and for a rotation the reciprocal of a length at which it is felt. That is the
 /// extent of the nodes that constraints tie it to, or the lever of a constraint: how much larger its coefficients of rotations are than those
 /// of displacements. Nodes at one place have no extent but the rounding of their coordinates, and a lever longer than the model is none.
-fn scales(model: &Model, given: &ConstraintRows, transformation: &Transformation) -> Vec<f64> {
+fn scales(given: &ConstraintRows, transformation: &Transformation, whole: f64) -> Vec<f64> {
     let dofs = &transformation.dofs;
-    let whole = size(model);
     let mut lengths = vec![0.0f64; dofs.len()];
     for row in &given.list {
         let length = extent(row, transformation).max(lever(row, transformation).min(whole));
-        let of_row = row.terms.iter().flat_map(|(row, _)| transformation.rows[*row as usize].entries());
-        of_row.for_each(|(dof, _)| lengths[dof as usize] = lengths[dof as usize].max(length));
+        on_dofs(row, transformation).for_each(|(dof, _)| lengths[dof as usize] = lengths[dof as usize].max(length));
     }
     let scale = |(dof, length): (&ReducedDof, f64)| {
         let length = if length > ONE_PLACE * whole { length } else { whole };
         if is_rotation(dof) { (-length.log2().floor()).exp2() } else { 1.0 }
     };
     dofs.iter().zip(lengths).map(scale).collect()
+}
+
+/// The terms of a constraint on the dofs; a dof may have several.
+fn on_dofs<'a>(row: &'a Constraint, transformation: &'a Transformation) -> impl Iterator<Item = (u32, f64)> + 'a {
+    let of_row = |(row, value): &'a (u32, f64)| {
+        transformation.rows[*row as usize].entries().map(move |(dof, factor)| (dof, value * factor))
+    };
+    row.terms.iter().flat_map(of_row)
 }
 
 /// The extent of the model; one where it has no coordinates.
@@ -102,9 +114,8 @@ fn is_rotation(dof: &ReducedDof) -> bool {
 
 /// The extent of the nodes of a constraint.
 fn extent(row: &Constraint, transformation: &Transformation) -> f64 {
-    let of_row = row.terms.iter().flat_map(|(row, _)| transformation.rows[*row as usize].entries());
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for site in of_row.filter_map(|(dof, _)| transformation.dofs[dof as usize].site) {
+    for site in on_dofs(row, transformation).filter_map(|(dof, _)| transformation.dofs[dof as usize].site) {
         for axis in 0..3 {
             low[axis] = low[axis].min(site.position[axis]);
             high[axis] = high[axis].max(site.position[axis]);
@@ -116,20 +127,21 @@ fn extent(row: &Constraint, transformation: &Transformation) -> f64 {
 /// The largest coefficient of a rotation over that of a displacement; nothing where it has none of either.
 fn lever(row: &Constraint, transformation: &Transformation) -> f64 {
     let [mut turning, mut moving] = [0.0f64; 2];
-    for (row, value) in &row.terms {
-        for (dof, factor) in transformation.rows[*row as usize].entries() {
-            let dof = &transformation.dofs[dof as usize];
-            let largest = if is_rotation(dof) { &mut turning } else { &mut moving };
-            *largest = largest.max((value * factor).abs());
-        }
+    for (dof, value) in on_dofs(row, transformation) {
+        let largest = if is_rotation(&transformation.dofs[dof as usize]) { &mut turning } else { &mut moving };
+        *largest = largest.max(value.abs());
     }
     if moving > 0.0 { turning / moving } else { 0.0 }
 }
 
 /// Makes sure that every constraint holds, those that were left out among them: what is left of its terms for each dof is rounding of these.
 /// The size of the model is what turns rotations into displacements here, which is not the measure that the constraints were solved by.
-fn refuse_broken(model: &Model, given: &ConstraintRows, carried: &[Terms], found: &Solved<'_>) -> Result<()> {
-    let whole = size(model);
+fn refuse_broken(
+    model: &Model,
+    (given, carried): (&ConstraintRows, &[Terms]),
+    found: &Solved<'_>,
+    whole: f64,
+) -> Result<()> {
     for (row, terms) in given.list.iter().zip(carried) {
         let mut of_dofs: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
         for (dof, value) in terms {
@@ -165,11 +177,8 @@ struct Solved<'a> {
 
 /// A constraint on the dofs, its largest term in [1, 2).
 fn carried(constraint: &Constraint, transformation: &Transformation, scales: &[f64]) -> Terms {
-    let mut terms = Terms::new();
-    for (row, value) in &constraint.terms {
-        let of_row = transformation.rows[*row as usize].entries();
-        terms.extend(of_row.map(|(dof, factor)| (dof, value * factor * scales[dof as usize])));
-    }
+    let scaled = on_dofs(constraint, transformation).map(|(dof, value)| (dof, value * scales[dof as usize]));
+    let mut terms: Terms = scaled.collect();
     let largest = terms.iter().fold(0.0f64, |max, (_, value)| max.max(value.abs()));
     if largest == 0.0 {
         return Terms::new();

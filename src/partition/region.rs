@@ -1,5 +1,6 @@
 //! Regions of space that select nodes.
 
+use crate::dofs::unit;
 use crate::job::Region;
 
 /// True where the point lies in the region or on its border.
@@ -7,10 +8,10 @@ pub(super) fn contains(region: &Region, point: [f64; 3]) -> bool {
     match region {
         Region::Box { min, max } => (0..3).all(|axis| min[axis] <= point[axis] && point[axis] <= max[axis]),
         Region::Plane { point: origin, normal, tolerance } => {
-            unit(*normal).is_some_and(|normal| dot(normal, minus(point, *origin)).abs() <= *tolerance)
+            direction(*normal).is_some_and(|normal| dot(normal, minus(point, *origin)).abs() <= *tolerance)
         }
         Region::Cylinder { from, to, radius, inner_radius } => {
-            let Some(axis) = unit(minus(*to, *from)) else { return false };
+            let Some(axis) = direction(minus(*to, *from)) else { return false };
             let offset = minus(point, *from);
             let along = dot(axis, offset);
             let across = norm(std::array::from_fn(|i| offset[i] - along * axis[i]));
@@ -20,12 +21,9 @@ pub(super) fn contains(region: &Region, point: [f64; 3]) -> bool {
     }
 }
 
-/// The direction of a vector of any length, neither of whose squares may leave the range of double precision; none of zero.
-fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let largest = a.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    let scaled = a.map(|x| x / largest);
-    let length = norm(scaled);
-    (largest > 0.0).then(|| scaled.map(|x| x / length))
+/// The direction of a vector of any length; none of zero.
+fn direction(a: [f64; 3]) -> Option<[f64; 3]> {
+    (a != [0.0; 3]).then(|| unit(a))
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

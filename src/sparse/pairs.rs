@@ -1,6 +1,6 @@
 //! Entries of a symmetric matrix of which some have their mirror image and others stand for both.
 
-use super::SparseMatrix;
+use super::{SparseMatrix, diagonal};
 
 /// Two values of one entry that differ by more of the larger one than this are not one value in different digits,
 const MAX_DIFFERENCE: f64 = 1e-5;
@@ -20,7 +20,7 @@ pub(crate) struct Completed {
 pub(crate) fn completed(matrix: &SparseMatrix) -> Completed {
     let transposed = matrix.transpose_view().to_csr();
     let n = matrix.rows();
-    let diagonal: Vec<f64> = (0..n).map(|row| matrix.get(row, row).copied().unwrap_or(0.0)).collect();
+    let diagonal = diagonal(matrix);
     let (mut pointers, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
     let (mut n_once, mut conflict) = (0, None);
     for (row, (own, mirrored)) in matrix.outer_iterator().zip(transposed.outer_iterator()).enumerate() {

@@ -109,18 +109,22 @@ impl Turning {
 
     /// The rows that a row of the files is a sum of, and by what factors.
     fn shares(&self, row: u32) -> impl Iterator<Item = (u32, f64)> {
-        let block = self.places[row as usize].map(|(block, at)| (&self.blocks[block as usize], at as usize));
-        let own = block.is_none().then_some((row, 1.0));
-        own.into_iter().chain(block.into_iter().flat_map(|((rows, axes), at)| rows.iter().copied().zip(axes[at])))
+        self.along(row, |axes, at, k| axes[at][k])
     }
 
     /// The rows of the files that move with a row of the model, and by what factors.
     fn sources(&self, row: u32) -> impl Iterator<Item = (u32, f64)> {
-        let block = self.places[row as usize].map(|(block, at)| (&self.blocks[block as usize], at as usize));
-        let own = block.is_none().then_some((row, 1.0));
-        let of_block =
-            |((rows, axes), at): (&([u32; 3], Axes), usize)| std::array::from_fn::<_, 3, _>(|i| (rows[i], axes[i][at]));
-        own.into_iter().chain(block.into_iter().flat_map(of_block))
+        self.along(row, |axes, at, k| axes[k][at])
+    }
+
+    /// The rows of the block of a row with an entry of its axes for the place of either; the row itself where it is in none.
+    fn along(&self, row: u32, of: fn(&Axes, usize, usize) -> f64) -> impl Iterator<Item = (u32, f64)> {
+        let place = self.places[row as usize];
+        let of_block = move |(block, at): (u32, u8)| {
+            let (rows, axes) = &self.blocks[block as usize];
+            std::array::from_fn::<_, 3, _>(|k| (rows[k], of(axes, usize::from(at), k)))
+        };
+        place.is_none().then_some((row, 1.0)).into_iter().chain(place.into_iter().flat_map(of_block))
     }
 
     /// A row of TᵀAT; none where it is that of A.

@@ -142,6 +142,16 @@ fn difference(a: &Matrix, b: &Matrix) -> f64 {
 /// that was not turned, or a row of it, is off by all of its digits.
 const ALIKE: f64 = 1e-9;
 
+/// The superelement in a folder is that of a model along its own axes, by the same reduction.
+#[track_caller]
+fn assert_is_that_of(place: &Place, sound: &Model, reduction: &str) {
+    let expected = Place::with(sound);
+    expected.reduce(&expected.model_flags(), reduction).expect(ExitCode::Done);
+    let [expected, found] = [&expected, place].map(|place| place.superelement("x.supel"));
+    let difference = difference(&expected.tensors().stiffness, &found.tensors().stiffness);
+    assert!(difference < ALIKE, "{difference:e}");
+}
+
 #[test]
 fn everything_that_has_rows_is_turned_to_the_axes_of_the_model() {
     for (name, sound, nodes) in [("beams", beams(), vec![1, 3, 4]), ("solid", steel_brick(), vec![1, 3, 4, 6, 20, 33])]
@@ -322,12 +332,7 @@ fn systems_of_nastran_are_taken_from_the_deck() {
     let reduction = "--interface hub=5,15,45 --method herting --modes 3 --strict";
     let ended = place.reduce(&flags, reduction).expect(ExitCode::Done);
     assert!(ended.out.contains("nodes have rows along axes of their own"), "{}", ended.out);
-    let found = place.superelement("x.supel");
-    let expected = Place::with(&sound);
-    expected.reduce(&expected.model_flags(), reduction).expect(ExitCode::Done);
-    let expected = expected.superelement("x.supel");
-    let difference = difference(&expected.tensors().stiffness, &found.tensors().stiffness);
-    assert!(difference < ALIKE, "{difference:e}");
+    assert_is_that_of(&place, &sound, reduction);
     // A system that is not there, and one that refers to itself.
     for (from, to, message) in [
         (
@@ -393,10 +398,5 @@ fn transforms_of_abaqus_are_taken_from_the_deck() {
     flags.extend(["--nodes".into(), place.text("part.inp")]);
     let reduction = "--interface hub=5,15,45 --method herting --modes 3 --strict";
     place.reduce(&flags, reduction).expect(ExitCode::Done);
-    let found = place.superelement("x.supel");
-    let expected = Place::with(&sound);
-    expected.reduce(&expected.model_flags(), reduction).expect(ExitCode::Done);
-    let expected = expected.superelement("x.supel");
-    let difference = difference(&expected.tensors().stiffness, &found.tensors().stiffness);
-    assert!(difference < ALIKE, "{difference:e}");
+    assert_is_that_of(&place, &sound, reduction);
 }

@@ -7,7 +7,6 @@ use supel_runtime::Superelement;
 
 use super::identity::{named, places};
 use super::projection::Projected;
-use crate::dense;
 use crate::job::Boundary;
 use crate::modes::Coupling;
 use crate::unseen::{UnseenMode, in_scales, scales, tie};
@@ -29,15 +28,12 @@ pub(super) fn unseen(
     let scales = scales(k, m, first);
     let further = projected.matrices.iter().map(|further| further.matrix.as_ref());
     let matrices: Vec<_> = [k, m].into_iter().chain(further).map(|matrix| in_scales(matrix, &scales)).collect();
-    let largest = dense::worst(couplings.iter().map(|coupling| coupling.size));
     // A mode that was not found again is not known to be unseen.
     let of_mode = |mode: usize| {
         let coordinate =
             superelement.metadata().named_columns().find(|column| column.mode().is_some_and(|of| of.0 == mode))?;
         let place = p + projected.place_of(named(coordinate, boundary)?)?;
-        let coupling = couplings.get(mode)?;
-        let (share, rounding) = (coupling.share, coupling.rounding / largest);
-        Some(UnseenMode { mode, coordinate: place, coupling: share, rounding, tie: tie(&matrices, place, &left_out) })
+        UnseenMode::of(mode, place, couplings, tie(&matrices, place, &left_out))
     };
     let unknown = |mode: usize| UnseenMode { mode, coordinate: 0, coupling: f64::INFINITY, rounding: 0.0, tie: 0.0 };
     let modes = superelement.metadata().unseen_modes().map(|mode| of_mode(mode).unwrap_or_else(|| unknown(mode)));

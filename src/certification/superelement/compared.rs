@@ -58,16 +58,13 @@ impl Compared<'_> {
     }
 
     /// The frequencies of both models, one to one by the shapes of their modes.
-    pub(super) fn frequencies(&self, [from, to]: [f64; 2]) -> Option<BoundaryComparison> {
+    pub(super) fn frequencies(&self, band_hz: [f64; 2]) -> Option<BoundaryComparison> {
         self.reduced.as_ref()?;
         let hertz = |lambda: f64| self.component.partition.scaling.hertz(lambda);
         let pair = |(at, (full, error)): (usize, (&f64, &ModeError))| {
             let full_hz = hertz(*full);
             let reduced_hz = self.partners[at].map_or(f64::INFINITY, |partner| hertz(self.elastic()[partner]));
-            let in_band = [full_hz, reduced_hz].iter().any(|hertz| (from..=to).contains(hertz));
-            let full_error_bar_hz = error.bar_of(full_hz);
-            let relative_difference = reduced_hz / full_hz - 1.0;
-            FrequencyPair { full_hz, full_error_bar_hz, reduced_hz, relative_difference, in_band }
+            FrequencyPair::new([full_hz, reduced_hz], error.bar_of(full_hz), band_hz)
         };
         let frequencies: Vec<FrequencyPair> = self.full.iter().zip(self.errors).enumerate().map(pair).collect();
         let inside = frequencies.iter().filter(|pair| pair.in_band);

@@ -23,19 +23,11 @@ impl Reference {
     }
 
     fn pairs(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> Vec<FrequencyPair> {
-        // One that the reduced model has in the band, and the full one below it, is a resonance of the band that is not there.
-        let is_in_band = |hertz: f64| (band_hz[0]..=band_hz[1]).contains(&hertz);
         let pair = |(j, (full, error)): (usize, (&f64, &ModeError))| {
             let full_hz = evidence.partition.scaling.hertz(*full);
             let reduced_hz =
                 reduced.get(j).map_or(f64::INFINITY, |quotient| evidence.partition.scaling.hertz(quotient.lambda));
-            FrequencyPair {
-                full_hz,
-                full_error_bar_hz: error.bar_of(full_hz),
-                reduced_hz,
-                relative_difference: reduced_hz / full_hz - 1.0,
-                in_band: is_in_band(full_hz) || is_in_band(reduced_hz),
-            }
+            FrequencyPair::new([full_hz, reduced_hz], error.bar_of(full_hz), band_hz)
         };
         self.lambda.iter().zip(&self.errors).enumerate().map(pair).collect()
     }

@@ -99,6 +99,20 @@ pub struct FrequencyPair {
     pub in_band: bool,
 }
 
+impl FrequencyPair {
+    /// The frequency of both models with the error bar of the full one, for a band in Hz. One that the reduced model has in the band, and the
+    /// full one below it, is a resonance of the band that is not there: it counts.
+    pub(crate) fn new([full_hz, reduced_hz]: [f64; 2], full_error_bar_hz: f64, band_hz: [f64; 2]) -> Self {
+        Self {
+            full_hz,
+            full_error_bar_hz,
+            reduced_hz,
+            relative_difference: reduced_hz / full_hz - 1.0,
+            in_band: [full_hz, reduced_hz].iter().any(|hertz| (band_hz[0]..=band_hz[1]).contains(hertz)),
+        }
+    }
+}
+
 /// Static stiffness at one interface, the other interfaces held.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InterfaceStatics {
