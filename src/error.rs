@@ -3393,7 +3393,7 @@ pub enum Error {
         "free memory, raise `run.memory_gib`, make the part that is named first smaller, or set `run.precision = \
         \"mixed\"` where the message says that this fits"
     )]
-    #[error("{}", forecast(*available, [*factors, *matrices, *vectors], *in_single))]
+    #[error("{}", forecast(*available, [*factors, *matrices, *vectors, *program], *in_single))]
     MemoryForecast {
         /// Bytes available.
         available: u64,
@@ -3403,6 +3403,8 @@ pub enum Error {
         matrices: u64,
         /// Bytes of the constraint modes and of the eigensolver's basis.
         vectors: u64,
+        /// Bytes of the program itself.
+        program: u64,
         /// Bytes in all with the factor in single precision, where those are available.
         in_single: Option<u64>,
     },

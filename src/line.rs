@@ -3,7 +3,7 @@
 use crate::basis::{self, Basis};
 use crate::constraint::{self, Constrained, LooseMotions, constrained};
 use crate::coordinates;
-use crate::cost_forecast::Foreseen;
+use crate::cost_forecast::{Comparisons, Foreseen};
 use crate::damping::{Damping, refuse_resistance};
 use crate::error::Result;
 use crate::factor::{Analysis, Storage};
@@ -112,7 +112,8 @@ pub(crate) fn with_component<T>(
     let (rank, plan) = known(plan, partition, &rigid)?;
 
     observer.stage("factor");
-    let storage = memory_forecast::storage_within_memory(&analysis, partition, &plan, resources)?;
+    let compared = Comparisons::in_memory(&plan, (partition, &analysis), None);
+    let storage = memory_forecast::storage_within_memory(&analysis, partition, (&plan, compared), resources)?;
     observer.foreseen(&Foreseen::of(&plan, (partition, &analysis), None));
     let factor = constraint::interior_factor(partition, &analysis, &rigid, (storage, rank))?;
 
@@ -218,7 +219,8 @@ fn with_reduction<T>(
     observer.foreseen(&Foreseen::of(plan, (partition, analysis), search.n_expected()));
     let forecast = search.n_expected().and_then(|n_modes| size_forecast::of_modes(n_modes, job));
     forecast.iter().for_each(|warning| observer.warned(warning));
-    let at_once = memory_forecast::slices_within_memory(analysis, partition, plan, resources, size)?;
+    let planned = (plan, Comparisons::in_memory(plan, (partition, analysis), search.n_expected()));
+    let at_once = memory_forecast::slices_within_memory(analysis, partition, planned, resources, size)?;
     let search = search.with_slices_at_once(at_once);
     let found = match plan.modes() {
         Modes::Computed => search.lowest_or_earlier(SEED)?,

@@ -23,6 +23,22 @@ const BLOCKS_OF_MODES: u64 = 6;
 /// Recovered rows of the basis as numbers, as bytes of their own and as bytes of the file.
 const COPIES: u64 = 3;
 
+/// Dofs up to which the boundaries of a scene are solved at the same time: one search then has too little work for several threads, and its
+/// vectors take less than 100 MB.
+pub(crate) const TOGETHER_UP_TO: usize = 50_000;
+/// Blocks of all columns of the space in which the frequency response is found, in halves: the columns, what K and M make of them, both once
+/// more in a decomposition, and a copy while a column is added. Measured are 9 to 12 with 3,000 to 30,000 dofs and 12 to 294 interface dofs.
+const HALF_BLOCKS_OF_RESPONSE: u64 = 21;
+/// Blocks of n_B columns that such a space takes on, where the interface has few dofs.
+const RESPONSE_BLOCKS: f64 = 6.0;
+/// Columns for each root of n_B that it takes on where there are many: unlike forces share their answers. Measured are 560 columns of 150
+/// dofs and 790 of 294.
+const COLUMNS_OF_A_ROOT: f64 = 46.0;
+/// Blocks of constraint modes that basis, projection, verification and comparison hold together where they are stored.
+const BLOCKS_OF_STATICS: u64 = 8;
+/// The program itself, its threads and what it keeps of its files.
+const PROGRAM: u64 = 22 << 20;
+
 /// Loads on the interface that a comparison solves at most.
 const MAX_LOADS: usize = 48;
 /// Columns that conjugate gradients hold for each load: answer, residual, direction and what a step makes of them.
@@ -62,6 +78,27 @@ pub struct Memory {
     pub matrices: u64,
     /// Constraint modes, modes, the bases of the eigensolver, recovered rows.
     pub vectors: u64,
+    /// The program itself, its threads and what it keeps of its files.
+    pub program: u64,
+}
+
+/// What of the full model is compared with the reduced one, as far as it takes memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Compared {
+    /// Supports under which frequencies are compared; none where they are not.
+    pub n_supports: usize,
+    /// The frequency response.
+    pub response: Response,
+}
+
+/// Whether the frequency response is compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Response {
+    /// It is.
+    Compared,
+    /// It is not.
+    #[default]
+    LeftOut,
 }
 
 /// How the factor is to be kept so that a run fits into the memory allowed by the job, or else what the machine offers: as the
@@ -72,10 +109,12 @@ pub struct Memory {
 pub fn storage_within_memory(
     analysis: &Analysis,
     partition: &Partition,
-    plan: &Plan,
+    (plan, compared): (&Plan, Compared),
     resources: Resources,
 ) -> Result<Storage> {
-    let fits = |storage| slices_within_memory(analysis, partition, plan, resources, (storage, None)).map(|_| storage);
+    let planned = (plan, compared);
+    let fits =
+        |storage| slices_within_memory(analysis, partition, planned, resources, (storage, None)).map(|_| storage);
     match plan.job().run.precision {
         Precision::Double => fits(Storage::Double),
         Precision::Mixed => fits(Storage::Single),
@@ -88,14 +127,14 @@ pub fn storage_within_memory(
 ///
 /// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the largest front, the
 /// constraint modes, the modes, the basis of the eigensolver (five vectors for each mode and eight blocks of eight) or what is
-/// held after it, and the rows that are recovered. The number of modes is what a count in the band has found, once there is one.
+/// held after it, what the comparison with the full model holds, and the rows that are recovered. The number of modes is what a count in the band has found, once there is one.
 ///
 /// # Errors
 /// [`Error::MemoryForecast`] where there is no room for a single search.
 pub fn slices_within_memory(
     analysis: &Analysis,
     partition: &Partition,
-    plan: &Plan,
+    (plan, compared): (&Plan, Compared),
     resources: Resources,
     (storage, n_modes): (Storage, Option<usize>),
 ) -> Result<usize> {
@@ -109,25 +148,30 @@ pub fn slices_within_memory(
         (None, ModeSelection::UpTo { .. }) => MODES_IN_A_BAND,
     };
     let forecast = |storage, at_once: usize| {
-        let search = SearchSize::of(plan, n_modes, at_once as u64);
+        let search = SearchSize::of((plan, compared), n_modes, at_once as u64);
         Memory::of(analysis, partition, search, storage)
     };
     if let Some(at_once) = (1..=n_threads).rev().find(|at_once| forecast(storage, *at_once).total() <= available) {
         return Ok(at_once);
     }
-    let Memory { factors, matrices, vectors } = forecast(storage, 1);
+    let Memory { factors, matrices, vectors, program } = forecast(storage, 1);
     let in_single = Some(forecast(Storage::Single, 1).total()).filter(|needed| *needed <= available);
-    Err(Error::MemoryForecast { available, factors, matrices, vectors, in_single })
+    Err(Error::MemoryForecast { available, factors, matrices, vectors, program, in_single })
 }
 
 /// What a planned run with so many modes will hold at once, with its factor in double precision unless the job says otherwise.
-pub fn expected(analysis: &Analysis, partition: &Partition, plan: &Plan, n_modes: usize) -> Memory {
+pub fn expected(
+    analysis: &Analysis,
+    partition: &Partition,
+    (plan, compared): (&Plan, Compared),
+    n_modes: usize,
+) -> Memory {
     let storage = match plan.job().run.precision {
         Precision::Mixed => Storage::Single,
         Precision::Double | Precision::Auto => Storage::Double,
     };
     let at_once = rayon::current_num_threads() as u64;
-    Memory::of(analysis, partition, SearchSize::of(plan, n_modes as u64, at_once), storage)
+    Memory::of(analysis, partition, SearchSize::of((plan, compared), n_modes as u64, at_once), storage)
 }
 
 /// Makes sure that a superelement with this many modes can be compared with its full model in the memory allowed by the job, or else
@@ -161,17 +205,35 @@ struct SearchSize {
     statics: Statics,
     n_modes: u64,
     at_once: u64,
+    compared: Compared,
 }
 
 impl SearchSize {
-    fn of(plan: &Plan, n_modes: u64, at_once: u64) -> Self {
-        Self { certify: plan.job().run.certify, statics: plan.statics(), n_modes, at_once }
+    fn of((plan, compared): (&Plan, Compared), n_modes: u64, at_once: u64) -> Self {
+        Self { certify: plan.job().run.certify, statics: plan.statics(), n_modes, at_once, compared }
+    }
+
+    /// Bytes that the comparison with the full model holds of a model with so many entries in K and M: the searches under other boundaries,
+    /// with their own matrices, or the space of the response after them.
+    fn of_comparison(&self, partition: &Partition, entries: u64) -> u64 {
+        let (n, n_b) = (partition.n_dofs() as u64, partition.n_interface() as u64);
+        let together = if n as usize <= TOGETHER_UP_TO { rayon::current_num_threads() } else { 1 };
+        let at_once = self.compared.n_supports.min(together) as u64;
+        let of_supports = at_once * (ENTRY_BYTES * entries + DOUBLE * n * (5 * self.n_modes + 64));
+        let columns = match self.compared.response {
+            Response::Compared => {
+                let root = COLUMNS_OF_A_ROOT * (n_b as f64).sqrt();
+                n_b + self.n_modes + (RESPONSE_BLOCKS * n_b as f64).min(root) as u64
+            }
+            Response::LeftOut => 0,
+        };
+        of_supports.max(DOUBLE * n * HALF_BLOCKS_OF_RESPONSE * columns / 2)
     }
 }
 
 impl Memory {
     fn of(analysis: &Analysis, partition: &Partition, search: SearchSize, storage: Storage) -> Self {
-        let SearchSize { certify, statics, n_modes, at_once } = search;
+        let SearchSize { certify, statics, n_modes, at_once, .. } = search;
         let n = partition.n_dofs() as u64;
         // The partitioned matrices and the triangle with wide indices that the analysis makes; a proof lowers K in a copy.
         let entries = (partition.stiffness.nnz() + partition.mass.nnz()) as u64;
@@ -204,7 +266,13 @@ impl Memory {
             Statics::Stored => 2 * n_b,
             Statics::ByFactor | Statics::Condensed | Statics::Carried => n_b.min(PANEL),
         };
-        let vectors = of_loads + n_free + of_statics + of_solver.max(BLOCKS_OF_MODES * n_modes) + refinement;
+        // What a search holds is gone before the reduced model is compared.
+        let of_blocks = match statics {
+            Statics::Stored => BLOCKS_OF_STATICS.saturating_sub(2) * n_b,
+            Statics::ByFactor | Statics::Condensed | Statics::Carried => 0,
+        };
+        let after = DOUBLE * n * (BLOCKS_OF_MODES * n_modes + of_blocks) + search.of_comparison(partition, entries);
+        let vectors = of_loads + n_free + of_statics + refinement;
         let recovery = COPIES
             * (partition.recovered.rows.len() + partition.quantities.rows.len()) as u64
             * (partition.n_interface() as u64 + n_modes);
@@ -212,12 +280,13 @@ impl Memory {
         Self {
             factors,
             matrices: ENTRY_BYTES * (n_copies * entries + further),
-            vectors: DOUBLE * (n * vectors + recovery),
+            vectors: DOUBLE * (n * vectors + recovery) + after.max(DOUBLE * n * of_solver),
+            program: PROGRAM,
         }
     }
 
     /// All of it.
     pub fn total(self) -> u64 {
-        self.matrices.saturating_add(self.factors).saturating_add(self.vectors)
+        [self.factors, self.matrices, self.vectors, self.program].into_iter().fold(0, u64::saturating_add)
     }
 }

@@ -3,11 +3,17 @@
 use super::sizes::{Proofs, Sizes};
 use super::stage::{Need, Stage, stages};
 use super::work::{NOMINAL, Work};
-use crate::job::{AnalysisJob, Certify, Job};
+use crate::factor::Analysis;
+use crate::job::{AnalysisJob, Certify, Job, ModeSelection};
+use crate::memory_forecast::{self, Response};
 use crate::number::quantity;
+use crate::partition::Partition;
+use crate::plan::Plan;
 
 /// Blocks of n_B right-hand sides that the frequency response converges in.
 const RESPONSE_BLOCKS: f64 = 6.0;
+/// Modes assumed of a band that nobody has counted.
+const IN_A_BAND: usize = 50;
 /// Work that a comparison which the job does not ask for may take on any job: half a second of the nominal machine.
 const SMALL: f64 = 0.5;
 
@@ -53,11 +59,32 @@ impl Comparisons {
                 None => Stage { name, need: Need::By("the verdict"), work },
             }
         };
-        let n_supports = scene.boundaries.as_ref().map_or(2.0 * sizes.n_interfaces, |stated| stated.len() as f64);
-        let frequencies = weigh("frequencies under other boundaries", others(sizes, n_supports), is_stated);
+        let of_others = others(sizes, n_supports(job, sizes));
+        let frequencies = weigh("frequencies under other boundaries", of_others, is_stated);
         let is_stated = is_full || scene.band_hz.is_some() || scene.damping.is_some() || accept.accepts_response();
         let response = weigh("frequency response", response(sizes), is_stated);
         Self { frequencies, response }
+    }
+
+    /// What is compared, as far as it takes memory, of a planned run that looks for so many modes; where nobody knows how many, of as many as
+    /// are assumed.
+    pub fn in_memory(
+        plan: &Plan,
+        (partition, analysis): (&Partition, &Analysis),
+        n_modes: Option<usize>,
+    ) -> memory_forecast::Compared {
+        let n_modes = match (n_modes, plan.job().reduction.wanted()) {
+            (Some(count), _) | (None, ModeSelection::Count { count }) => count,
+            (None, ModeSelection::UpTo { .. }) => IN_A_BAND,
+        };
+        let sizes = Sizes::of(plan, partition, analysis, (n_modes, 0));
+        let Self { frequencies, response } = Self::of(plan.job(), &sizes, Band::Known);
+        let is_compared = |stage: &Stage| matches!(stage.need, Need::By(_));
+        let n_supports = n_supports(plan.job(), &sizes) as usize;
+        memory_forecast::Compared {
+            n_supports: if is_compared(&frequencies) { n_supports } else { 0 },
+            response: if is_compared(&response) { Response::Compared } else { Response::LeftOut },
+        }
     }
 
     /// What is not compared, and why; one line where both are left out for one reason.
@@ -69,6 +96,12 @@ impl Comparisons {
             _ => [&self.frequencies, &self.response].into_iter().filter_map(Stage::left_out).collect(),
         }
     }
+}
+
+/// Supports under which frequencies are compared.
+fn n_supports(job: &Job, sizes: &Sizes) -> f64 {
+    let stated = job.scene.as_ref().and_then(|scene| scene.boundaries.as_ref());
+    stated.map_or(2.0 * sizes.n_interfaces, |stated| stated.len() as f64)
 }
 
 /// Frequencies under so many boundaries: an eigensolution each with the factor that is there, and one count for all.

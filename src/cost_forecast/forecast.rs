@@ -55,7 +55,8 @@ impl Forecast {
         let comparisons = Comparisons::of(plan.job(), &sizes, band(&plan, modes));
         let mut stages = stages(&sizes);
         stages.extend([comparisons.frequencies, comparisons.response]);
-        let memory = memory_forecast::expected(analysis, partition, &plan, modes.count);
+        let compared = Comparisons::in_memory(&plan, (partition, analysis), Some(modes.count));
+        let memory = memory_forecast::expected(analysis, partition, (&plan, compared), modes.count);
         let mut warnings = size_forecast::of_interfaces(partition);
         if modes.known != Known::Assumed {
             warnings.extend(size_forecast::of_modes(modes.count, plan.job()));

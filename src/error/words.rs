@@ -122,11 +122,16 @@ pub(super) fn of_file(path: Option<&Path>) -> String {
 }
 
 /// The parts of a forecast, the largest first, and what makes that one smaller.
-pub(super) fn forecast(available: u64, [factors, matrices, vectors]: [u64; 3], in_single: Option<u64>) -> String {
+pub(super) fn forecast(
+    available: u64,
+    [factors, matrices, vectors, program]: [u64; 4],
+    in_single: Option<u64>,
+) -> String {
     let mut parts = [
         (factors, "factors", "use a weaker run.certify (reduce --certify), which needs fewer factors"),
         (vectors, "vectors", "keep fewer modes or interface dofs"),
         (matrices, "matrices", "reduce a smaller model"),
+        (program, "the program itself", "allow it more than the program itself takes"),
     ];
     parts.sort_by_key(|(size, ..)| std::cmp::Reverse(*size));
     let needed = parts.iter().fold(0, |sum: u64, (size, ..)| sum.saturating_add(*size));

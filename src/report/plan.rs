@@ -73,6 +73,7 @@ struct MemoryLine {
     factor_bytes: u64,
     matrix_bytes: u64,
     vector_bytes: u64,
+    program_bytes: u64,
     allowed_bytes: Option<u64>,
     fits: bool,
 }
@@ -119,6 +120,7 @@ impl PlanReport<'_> {
                 factor_bytes: memory.factors,
                 matrix_bytes: memory.matrices,
                 vector_bytes: memory.vectors,
+                program_bytes: memory.program,
                 allowed_bytes: self.forecast.allowed_bytes,
                 fits: self.forecast.fits(),
             },
@@ -205,14 +207,16 @@ impl PlanReport<'_> {
 
     fn memory(&self) -> String {
         let memory = self.forecast.memory;
-        let [peak, factors, matrices, vectors] =
-            [memory.total(), memory.factors, memory.matrices, memory.vectors].map(number::bytes);
+        let [peak, factors, matrices, vectors, program] =
+            [memory.total(), memory.factors, memory.matrices, memory.vectors, memory.program].map(number::bytes);
         let room = match (self.forecast.allowed_bytes.map(number::bytes), self.forecast.fits()) {
             (None, _) => String::new(),
             (Some(allowed), true) => format!("; {allowed} are there"),
             (Some(allowed), false) => format!("; {allowed} are there: `supel reduce` will refuse"),
         };
-        format!("{peak}: {factors} of factors, {matrices} of matrices, {vectors} of vectors{room}")
+        format!(
+            "{peak}: {factors} of factors, {matrices} of matrices, {vectors} of vectors, {program} of the program{room}"
+        )
     }
 
     fn table(&self, page: &mut Page) {

@@ -2,12 +2,13 @@
 
 use std::process::Command;
 
+use supel::cost_forecast::Comparisons;
 use supel::dofs::{Direction, Dof};
 use supel::error::Error;
 use supel::factor::{Analysis, Cholesky, Storage};
 use supel::job::{Job, Precision};
 use supel::memory_forecast::Resources;
-use supel::memory_forecast::slices_within_memory;
+use supel::memory_forecast::{Compared, slices_within_memory};
 use supel::model::Model;
 use supel::partition::Partition;
 use supel::plan::Plan;
@@ -53,8 +54,9 @@ write     = { superelement = "x.supel" }
     let partition = crate::chain::partition(&spring(5, Ends::Fixed), &[]).expect("a chain");
     let resources = Resources { memory_bytes: Some(16 << 30), cache: None };
     let in_double = (Storage::Double, None);
-    let error = slices_within_memory(&analysis, &partition, &Plan::of(&job), resources, in_double)
-        .expect_err("more than 16 GiB");
+    let error =
+        slices_within_memory(&analysis, &partition, (&Plan::of(&job), Compared::default()), resources, in_double)
+            .expect_err("more than 16 GiB");
     assert!(matches!(error, Error::MemoryForecast { factors, .. } if factors >= 8 * exact as u64), "{error}");
     let said = error.to_string();
     assert!(said.contains("– largest first: factors ") && said.ends_with("which needs fewer factors"), "{said}");
@@ -123,9 +125,11 @@ write     = { superelement = "x.supel" }
     let analysis = partition.analysis().expect("an analysis");
     let needed = |partition: &Partition, storage| {
         let resources = Resources { memory_bytes: Some(1), cache: None };
-        match slices_within_memory(&analysis, partition, &Plan::of(&job), resources, (storage, None)) {
-            Err(Error::MemoryForecast { factors, matrices, vectors, in_single: None, .. }) => {
-                factors + matrices + vectors
+        let plan = Plan::of(&job);
+        let compared = Comparisons::in_memory(&plan, (partition, &analysis), None);
+        match slices_within_memory(&analysis, partition, (&plan, compared), resources, (storage, None)) {
+            Err(Error::MemoryForecast { factors, matrices, vectors, program, in_single: None, .. }) => {
+                factors + matrices + vectors + program
             }
             other => panic!("a byte is enough: {other:?}"),
         }
@@ -153,11 +157,19 @@ fn slices_at_the_same_time_are_those_that_memory_holds() {
     let at_once = |memory_bytes| {
         let resources = Resources { memory_bytes, cache: None };
         pool.install(|| {
-            slices_within_memory(&analysis, &partition, &Plan::of(&job), resources, (Storage::Double, Some(800)))
+            slices_within_memory(
+                &analysis,
+                &partition,
+                (&Plan::of(&job), Compared::default()),
+                resources,
+                (Storage::Double, Some(800)),
+            )
         })
     };
-    let Err(Error::MemoryForecast { factors, matrices, vectors, .. }) = at_once(Some(1)) else { panic!("a byte") };
-    let one = factors + matrices + vectors;
+    let Err(Error::MemoryForecast { factors, matrices, vectors, program, .. }) = at_once(Some(1)) else {
+        panic!("a byte")
+    };
+    let one = factors + matrices + vectors + program;
     assert!(at_once(Some(one - 1)).is_err());
     let held: Vec<usize> = (0..=200).map(|part| at_once(Some(one + one * part / 100)).expect("enough")).collect();
     assert!(held.is_sorted() && held[0] == 1 && held[200] == 4, "{held:?}");

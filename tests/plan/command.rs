@@ -156,3 +156,22 @@ fn the_machine_is_measured_once() {
     std::fs::write(&file, unsound.to_string()).expect("written");
     assert!(rates(&["--threads", "1"])["solve_byte"].as_f64().expect("a number") > 0.0);
 }
+
+/// The peak of a process of its own is what the plan says, up to the pages that an allocator keeps and how soon the response converges.
+#[test]
+fn the_run_needs_the_memory_that_the_plan_says() {
+    let model = supel_models::brick([16, 9, 7], [1.0, 0.31, 0.23], &supel_models::Material::STEEL_SI);
+    let many = "method = \"herting\", modes = { count = 60 }";
+    for (reduction, scene) in [(HERTING, ""), (many, "boundaries = []\nband_hz = [0, 9000]")] {
+        let place = Place::with(&model);
+        place.write("job.toml", Case::new(PATCHES, reduction, scene).job().as_bytes());
+        let answer = |command: &str| -> Value {
+            let mut program = Command::cargo_bin("supel").expect("the program");
+            let output = program.args([command, &place.text("job.toml"), "--json", "--threads", "2"]).output();
+            serde_json::from_slice(&output.expect("it runs").stdout).expect("JSON")
+        };
+        let foreseen = answer("plan")["memory"]["peak_bytes"].as_f64().expect("bytes");
+        let found = answer("reduce")["run"]["peak_memory_bytes"].as_f64().expect("bytes");
+        assert!((0.75..1.35).contains(&(foreseen / found)), "{scene}: {foreseen} foreseen, {found} found");
+    }
+}

@@ -6,6 +6,7 @@ use crate::eigen::Spectral;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::{Certify, Job};
+use crate::memory_forecast::TOGETHER_UP_TO;
 use crate::random::SEED;
 use crate::verification::check::Check;
 use crate::verification::evidence::Evidence;
@@ -86,10 +87,6 @@ fn measured((evidence, own): (&Evidence<'_>, &Evidence<'_>), analysis: &Analysis
     }
     Ok(compared)
 }
-
-/// Dofs up to which the boundaries are solved at the same time: one search then has too little work for several threads, and its
-/// vectors take less than 100 MB.
-const TOGETHER_UP_TO: usize = 50_000;
 
 impl Compared {
     /// Keeps a result, or notes what could not be compared; only a lack of memory ends the run.
