@@ -1907,6 +1907,19 @@ pub enum Error {
         /// Program and version that it names.
         found: String,
     },
+    /// `verify --reproduce` of a file that a run made from parts of what earlier runs had kept.
+    #[entry("E-PARTS", Usage, "run its job again without a cache, or compare with `verify --job` alone")]
+    #[error(
+        "{}: made from {} of what earlier runs had kept in a cache – right to the error bars, but no other run has their last \
+        bits – run its job again without --cache, or compare by verify --job without --reproduce",
+        path.display(), counted(*parts, "part", "parts")
+    )]
+    MadeOfParts {
+        /// The file.
+        path: PathBuf,
+        /// Results that were parts.
+        parts: usize,
+    },
     /// `verify --reproduce` or `inspect --job` of a file that keeps no job of this version.
     #[entry("E-KEPT-JOB", Usage, "run the version that made it, or give the job by `verify --job`")]
     #[error(

@@ -3,6 +3,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::String;
 use alloc::vec::Vec;
+use core::num::NonZero;
 
 use serde::{Deserialize, Serialize};
 
@@ -84,6 +85,10 @@ pub struct Generator {
     pub name: String,
     /// Version of the program.
     pub version: String,
+    /// Results that were parts of what earlier runs had kept for more than was asked: right to their error bars, but no other run has their
+    /// last bits. Absent from the file where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parts_of_earlier_runs: Option<NonZero<u64>>,
 }
 
 /// The reduction method.

@@ -370,7 +370,7 @@ fn is_modal(content: &Content<'_>) -> bool {
 /// it: where it names another version, the rules of this one are not held against it, and that leaves a doubt.
 pub(super) fn other_version(content: &Content<'_>) -> Check {
     let worst = (!is_of_this_version(content.superelement)).then(|| {
-        let Generator { name, version } = &content.superelement.metadata().generator;
+        let Generator { name, version, .. } = &content.superelement.metadata().generator;
         let mut unlike = made_by_none(content);
         unlike.extend(with_method(content));
         unlike.extend(record::of_version(content));

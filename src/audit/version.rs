@@ -11,7 +11,7 @@ pub fn kept_job(superelement: &Superelement) -> Option<Job> {
 
 /// Whether this program, in this version, made the file, as far as it says so.
 pub fn is_of_this_version(superelement: &Superelement) -> bool {
-    let Generator { name, version } = &superelement.metadata().generator;
+    let Generator { name, version, .. } = &superelement.metadata().generator;
     name == env!("CARGO_PKG_NAME") && version == env!("CARGO_PKG_VERSION")
 }
 

@@ -58,7 +58,7 @@ pub(super) fn made_earlier(job: &Job, strictness: Strictness) -> Result<MadeEarl
         return Err(Stale::NotMade);
     }
     if !audit::is_of_this_version(&superelement) {
-        let Generator { name, version } = &superelement.metadata().generator;
+        let Generator { name, version, .. } = &superelement.metadata().generator;
         return Err(Stale::Because(format!("it was made by {name} {version}")));
     }
     let is_whole = audit::rewritten(&superelement, &bytes).verdict() == CheckVerdict::Pass;

@@ -78,6 +78,9 @@ fn job_to_run(command: &VerifyCommand, superelement: &Superelement) -> Result<(J
         let found = format!("{} {}", generator.name, generator.version);
         return Err(Error::OtherVersion { path: command.file.clone(), found });
     }
+    if let Some(parts) = superelement.metadata().generator.parts_of_earlier_runs {
+        return Err(Error::MadeOfParts { path: command.file.clone(), parts: parts.get() as usize });
+    }
     if let Some(job) = &command.job {
         return Ok((job.clone(), None));
     }

@@ -1,5 +1,6 @@
 //! The superelement from the results of the stages.
 
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 use faer::{Mat, MatRef};
@@ -158,7 +159,7 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
     coordinates.extend(kept.map(|slot| dynamic_coordinate(results, tensors, evidence.basis.coordinates[slot])));
     let digests = results.input.digests();
     Ok(Metadata {
-        generator: file::Generator { name: env!("CARGO_PKG_NAME").into(), version: env!("CARGO_PKG_VERSION").into() },
+        generator: generator(evidence),
         method: results.job().reduction.method.in_file(),
         units: results.job().model.units.clone(),
         interface_nodes,
@@ -187,6 +188,15 @@ fn metadata(results: &Results<'_>, tensors: &Tensors, verdict: Verdict) -> Resul
         job: job_document(results.plan.given())?,
         verification: verification(&results.checks(), verdict),
     })
+}
+
+fn generator(evidence: &Evidence<'_>) -> file::Generator {
+    let parts = evidence.partition.cache().map_or(0, |cache| cache.tally().parts);
+    file::Generator {
+        name: env!("CARGO_PKG_NAME").into(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        parts_of_earlier_runs: NonZero::new(parts as u64),
+    }
 }
 
 /// What was left out, in the order of the method: columns that others span, and modes that nothing starts and nothing sees.

@@ -300,7 +300,7 @@ pub fn parts(stiffness: Matrix, mass: Matrix, positions: &[Vector3]) -> (Tensors
         error_bar_hz: None,
     });
     let metadata = Metadata {
-        generator: Generator { name: "test".into(), version: "1".into() },
+        generator: Generator { name: "test".into(), version: "1".into(), parts_of_earlier_runs: None },
         method: Method::ModeAcceleration,
         units: None,
         interface_nodes: interface_nodes.collect(),

@@ -150,7 +150,7 @@ pub fn two_particles() -> Superelement {
 
 fn bare_metadata(method: Method) -> Metadata {
     Metadata {
-        generator: Generator { name: "supel".into(), version: "0.1.0".into() },
+        generator: Generator { name: "supel".into(), version: "0.1.0".into(), parts_of_earlier_runs: None },
         method,
         units: None,
         interface_nodes: Vec::new(),

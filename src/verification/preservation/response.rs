@@ -118,7 +118,7 @@ pub(super) fn compared<'a>(
         }
         None => {
             let cache = evidence.partition.cache().filter(|_| evidence.factor.storage() == Storage::Double);
-            (recalled(cache, || task.key(), || task.measured_or_known(cache))?, None)
+            (task.recalled_or_known(cache)?, None)
         }
     };
     let report = task.report(&measured);
@@ -144,24 +144,44 @@ struct Task<'t> {
 }
 
 impl<'t> Task<'t> {
-    /// The response of the full model: in the space of an earlier run where that answers all samples, otherwise by solves, whose space is
-    /// kept.
+    /// The response of the full model: what an earlier run has found by solves, or in the space of another response where that answers all
+    /// samples, otherwise by solves. Only what solves have found is kept, with its space: a response in the space of another one has other
+    /// last bits.
     ///
     /// # Errors
     /// A pencil that is not definite.
-    fn measured_or_known(&self, cache: Option<&Cache>) -> Result<Measured> {
-        let key = cache.map(|_| Space::key(self.evidence));
-        let space = cache.zip(key.as_ref()).and_then(|(cache, key)| cache.of_earlier_run(&key.digest()));
-        if let Some(mut known) = space.and_then(|space| Known::of(self.evidence, space, self.eta))
-            && let Some((measured, _)) = self.measured(First::SpreadResonances, &mut known)?
+    fn recalled_or_known(&self, cache: Option<&Cache>) -> Result<Measured> {
+        let unkept = cache.filter(|cache| !cache.has(Kind::Response, &self.key().digest()));
+        if let Some(cache) = unkept
+            && let Some(measured) = self.known(cache)?
         {
-            cache.iter().for_each(|cache| cache.part_was_taken());
+            cache.part_was_taken();
             return Ok(measured);
         }
+        recalled(cache, || self.key(), || self.found_by_solves(cache))
+    }
+
+    /// The response in the space of an earlier run, where that answers all samples.
+    ///
+    /// # Errors
+    /// A pencil that is not definite.
+    fn known(&self, cache: &Cache) -> Result<Option<Measured>> {
+        let space = cache.of_earlier_run(&Space::key(self.evidence).digest());
+        let Some(mut known) = space.and_then(|space| Known::of(self.evidence, space, self.eta)) else {
+            return Ok(None);
+        };
+        Ok(self.measured(First::SpreadResonances, &mut known)?.map(|(measured, _)| measured))
+    }
+
+    /// The response by solves, whose space is kept for others.
+    ///
+    /// # Errors
+    /// A pencil that is not definite.
+    fn found_by_solves(&self, cache: Option<&Cache>) -> Result<Measured> {
         let mut extended = Extended::new(self.evidence, self.evidence.factor, self.eta)?;
         let (measured, residuals) = self.measured_by_solves(First::SpreadResonances, &mut extended)?;
-        if let (Some((cache, key)), Some(space)) = (cache.zip(key.as_ref()), extended.space(&residuals)) {
-            cache.replace(key, &space);
+        if let (Some(cache), Some(space)) = (cache, extended.space(&residuals)) {
+            cache.replace(&Space::key(self.evidence), &space);
         }
         Ok(measured)
     }

@@ -227,7 +227,11 @@ pub fn superelement() -> Superelement {
 fn metadata(interface_nodes: Vec<InterfaceNode>) -> Metadata {
     let coordinate = |node| Coordinate::Interface { node, direction: Direction::Ux };
     Metadata {
-        generator: supel_runtime::Generator { name: "supel".to_owned(), version: "0.1.0".to_owned() },
+        generator: supel_runtime::Generator {
+            name: "supel".to_owned(),
+            version: "0.1.0".to_owned(),
+            parts_of_earlier_runs: None,
+        },
         method: supel_runtime::Method::Herting,
         units: Some("kg-m-s".to_owned()),
         interface_nodes,
