@@ -3364,6 +3364,30 @@ pub enum Error {
         /// How well its entries are known.
         known: String,
     },
+    /// Few digits leave open whether motions inside the component cost energy, and the job does not say that they are meant.
+    #[entry(
+        "E-MECHANISM-DIGITS",
+        InputData,
+        "say `model.mechanisms = \"accept\"` where hinges and sliding joints are meant, or write the stiffness with more digits, best \
+        in binary"
+    )]
+    #[error(
+        "the digits of the stiffness do not tell {} inside the component{} from elastic ones up to {up_to_hz:.1e} Hz – {known} – \
+        expected motions that cost no energy to be told from soft ones – say model.mechanisms = \"accept\" if hinges or sliding \
+        joints are meant, or write the stiffness with more digits, best in binary",
+        counted(*n_inside, "motion", "motions"),
+        if nodes.is_empty() { String::new() } else { format!(", largest at {nodes},") }
+    )]
+    MechanismDigits {
+        /// How many.
+        n_inside: usize,
+        /// Frequency up to which they may be elastic.
+        up_to_hz: f64,
+        /// How well entries are known.
+        known: String,
+        /// What the first of them moves most.
+        nodes: String,
+    },
     /// The stiffness is not positive definite, with the interface held or, as it says then, with none held.
     #[entry(
         "E-NOT-DEFINITE",

@@ -120,6 +120,7 @@ pub(crate) fn with_component<T>(
     observer.stage("constraint modes");
     let Constrained { modes: held, rigid, rank, loose, n_factorisations } =
         constrained(partition, (&factor, plan.statics()), rigid, rank)?;
+    loose.refuse_unmeant(plan.job().model.mechanisms, partition, &rigid)?;
     let component = Component::new(partition, &analysis, &factor, &rigid, held.as_ref());
     let n_other_factors = n_extra + n_factorisations;
     then(Conditioned { component, plan: &plan, rank, loose: &loose, storage, n_other_factors }, observer)

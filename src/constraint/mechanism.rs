@@ -14,9 +14,10 @@ use crate::dense;
 use crate::eigen::{rayleigh_quotients, zero};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, few_digits, whole_count};
+use crate::job::Mechanisms;
 use crate::partition::Partition;
-use crate::rigid::refuse_uncounted;
 use crate::rigid::{RigidBodyModes, largest_residual, zero_energy};
+use crate::rigid::{lost_interface, refuse_uncounted};
 use crate::sparse::absolute_energy;
 use crate::sparse::{product, product_and_terms};
 
@@ -53,6 +54,36 @@ pub struct LooseMotions {
     pub grey: Vec<Loose>,
     /// No mechanisms, but known to four digits at best: the data have too few.
     pub uncertain: Vec<Loose>,
+    /// What few digits leave open of the eigenvalues of mechanisms, relative to the next one; zero without mechanisms.
+    pub share_of_next: f64,
+}
+
+/// How far up, relative to the first motion with energy, few digits may leave open what motions inside the component cost, without the job
+/// saying that they are meant: in practice a frequency of 10⁻⁴ of the first elastic one counts as none.
+const FREE_IN_PRACTICE: f64 = 1e-8;
+
+impl LooseMotions {
+    /// An error where few digits of K leave open whether motions inside the component are elastic, and the job does not say that they are
+    /// meant: what is soft would be lost.
+    ///
+    /// # Errors
+    /// [`Error::MechanismDigits`].
+    pub fn refuse_unmeant(&self, mechanisms: Mechanisms, partition: &Partition, rigid: &RigidBodyModes) -> Result<()> {
+        let n_inside = rigid.n_inside(partition.model.n_bodies);
+        if mechanisms == Mechanisms::Accept || n_inside == 0 || !partition.has_few_digits() {
+            return Ok(());
+        }
+        let level = self.mechanisms.iter().map(|motion| motion.bar).fold(rigid.level_of_digits(), f64::max);
+        if self.share_of_next.max(rigid.energy.angle) <= FREE_IN_PRACTICE {
+            return Ok(());
+        }
+        Err(Error::MechanismDigits {
+            n_inside,
+            up_to_hz: partition.scaling.hertz(level),
+            known: partition.precision.stiffness.in_words(),
+            nodes: self.mechanisms.first().map_or_else(String::new, |motion| motion.nodes.join(", ")),
+        })
+    }
 }
 
 /// Adds the motions of mechanisms to the rigid-body modes.
@@ -79,17 +110,17 @@ pub fn with_mechanisms(
     let mut free = Vec::new();
     for (j, (lambda, (error, terms))) in lambda.into_iter().zip(errors.iter().zip(terms)).enumerate() {
         let bar = error.data_bar * lambda.abs();
-        let loose = || Loose { lambda, bar, nodes: most_moved(partition, dense::column(motions.as_ref(), j)) };
+        let loose = |bar| Loose { lambda, bar, nodes: most_moved(partition, dense::column(motions.as_ref(), j)) };
         if zero::is_zero(lambda, error.zero_level) || is_rounding(partition, constraint, (lambda, error.zero_level))? {
             free.push(j);
-            found.mechanisms.push(loose());
+            found.mechanisms.push(loose(error.zero_level));
         } else if lambda <= ROUNDINGS_OF_THE_PRODUCER * f64::EPSILON * terms {
-            found.grey.push(loose());
+            found.grey.push(loose(bar));
         } else if lambda <= KNOWN_BEYOND_BARS * bar {
-            found.uncertain.push(loose());
+            found.uncertain.push(loose(bar));
         }
     }
-    refuse_uncounted_mechanisms(partition, constraint, (&rigid, &found))?;
+    found.share_of_next = counted_share(partition, constraint, (&rigid, &found))?;
     let free = dense::columns(motions.as_ref(), &free);
     let n_grey = found.grey.len() + found.uncertain.len();
     let rigid = RigidBodyModes { n_grey, ..joined(partition, rigid, free.as_ref()) };
@@ -115,21 +146,28 @@ fn is_rounding(partition: &Partition, constraint: &ConstraintModes<'_>, (lambda,
     }
 }
 
-/// Mechanisms by few digits are believed where what rounding makes is nothing compared with the softest motion that is none.
-fn refuse_uncounted_mechanisms(
+/// Mechanisms by few digits are believed where what rounding makes is nothing compared with the softest motion that is none. Where the
+/// interface has no other motion, nothing is left of its stiffness that could tell.
+fn counted_share(
     partition: &Partition,
     constraint: &ConstraintModes<'_>,
     (rigid, found): (&RigidBodyModes, &LooseMotions),
-) -> Result<()> {
+) -> Result<f64> {
     if found.mechanisms.is_empty() || !partition.has_few_digits() {
-        return Ok(());
+        return Ok(0.0);
     }
-    let others = found.grey.iter().chain(&found.uncertain).map(|motion| motion.bar / motion.lambda);
-    let next = orthonormal(partition, rigid, stiffer_motion(partition, constraint, rigid)?)?;
+    let others: Vec<f64> = found.grey.iter().chain(&found.uncertain).map(|motion| motion.bar / motion.lambda).collect();
+    let n_free = rigid.count() + found.mechanisms.len();
+    let stiffer = stiffer_motion(partition, constraint, rigid)?;
+    if stiffer.ncols() == 0 && others.is_empty() {
+        return Err(lost_interface(partition.precision.stiffness, n_free));
+    }
+    let next = orthonormal(partition, rigid, stiffer)?;
     let (lambda, errors, _) = rayleigh_quotients(partition.free_problem(), next.as_ref());
     let of_next = lambda.iter().zip(&errors).map(|(lambda, error)| error.zero_level / lambda);
-    let bar = others.chain(of_next).fold(0.0, f64::max);
-    refuse_uncounted(partition.precision.stiffness, rigid.count() + found.mechanisms.len(), bar)
+    let bar = others.into_iter().chain(of_next).fold(0.0, f64::max);
+    refuse_uncounted(partition.precision.stiffness, n_free, bar)?;
+    Ok(bar)
 }
 
 /// V for every eigenvector of S that is soft and no rigid-body motion; columns of unit length in the scales of the dofs.

@@ -7,7 +7,6 @@ use crate::factor::Refinement;
 use crate::input::{Faces, PatchFaces};
 use crate::job::{Boundary, Coupling, Mechanisms, Precision};
 use crate::number::counted;
-use crate::rigid::RigidSource;
 use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
 
@@ -20,22 +19,18 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
     let rigid = results.evidence.rigid;
     let loose = results.loose;
     let mut warnings = Vec::new();
-    // Without coordinates a body can move in six ways at most; what is beyond is a mechanism.
-    let surplus = match rigid.source {
-        RigidSource::Algebraic => rigid.count().saturating_sub(6 * results.evidence.partition.model.n_bodies),
-        RigidSource::Geometric => 0,
-    };
-    let n_mechanisms = rigid.n_mechanisms.max(surplus);
+    let n_mechanisms = rigid.n_inside(results.evidence.partition.model.n_bodies);
     if n_mechanisms > 0 && results.job().model.mechanisms == Mechanisms::Warn {
         let nodes: Vec<String> = loose.mechanisms.iter().map(|motion| motion.nodes.join(", ")).collect();
         let largest = if nodes.is_empty() { String::new() } else { format!(", largest at {}", nodes.join("; at ")) };
         warnings.push(Warning {
             code: "W-MECHANISM",
             message: format!(
-                "{} no energy, {n_mechanisms} of them inside the component{largest}: they are kept as zero modes \
+                "{} no energy{}, {n_mechanisms} of them inside the component{largest}: they are kept as zero modes \
                  like rigid-body motions; close hinges and sliding joints if none were meant, or say \
                  model.mechanisms = \"accept\"",
-                counted(rigid.count(), "motion costs", "motions cost")
+                counted(rigid.count(), "motion costs", "motions cost"),
+                as_far_as_digits_tell(results)
             ),
         });
     }
@@ -55,6 +50,17 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
         });
     }
     warnings
+}
+
+/// What a motion that is kept as free may be slower than, where K has few digits.
+fn as_far_as_digits_tell(results: &Results<'_>) -> String {
+    if !results.evidence.partition.has_few_digits() {
+        return String::new();
+    }
+    let of_digits = results.evidence.rigid.level_of_digits();
+    let level = results.loose.mechanisms.iter().map(|motion| motion.bar).fold(of_digits, f64::max);
+    let hertz = results.evidence.partition.scaling.hertz(level);
+    format!(" that the digits of the stiffness tell from none, which elastic ones up to {hertz:.1e} Hz do not either")
 }
 
 fn grey(results: &Results<'_>, motions: &[Loose]) -> String {

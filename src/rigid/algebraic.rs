@@ -142,6 +142,15 @@ pub(crate) fn refuse_uncounted(rounding: Rounding, n_zero: usize, bar: f64) -> R
     Err(Error::DigitsTooFew { what, known: rounding.in_words() })
 }
 
+/// The error where no motion of the interface is left whose energy the digits tell from none.
+pub(crate) fn lost_interface(rounding: Rounding, n_zero: usize) -> Error {
+    let what = format!(
+        "how many motions cost no energy: {n_zero} seem to, and these are all that the interface can do, so that nothing is left of its \
+         stiffness"
+    );
+    Error::DigitsTooFew { what, known: rounding.in_words() }
+}
+
 /// The zero modes after a step of inverse iteration, which takes what rounding of the eigensolver left of an elastic motion
 /// λ down to σ/(λ + σ) of itself: forces are λ times the motion, and the stiffest ones would be all that is left of KQ.
 fn without_elastic_rounding(partition: &Partition, found: &Shifted<'_>) -> Mat<f64> {

@@ -51,6 +51,23 @@ pub struct RigidEnergy {
 }
 
 impl RigidBodyModes {
+    /// Motions without energy that are none of a body as a whole: without coordinates a body can move in six ways at most.
+    pub fn n_inside(&self, n_bodies: usize) -> usize {
+        let surplus = match self.source {
+            RigidSource::Algebraic => self.count().saturating_sub(6 * n_bodies),
+            RigidSource::Geometric => 0,
+        };
+        self.n_mechanisms.max(surplus)
+    }
+
+    /// Eigenvalue below which zero modes that are known from the matrices alone cannot be told from elastic ones; zero for those of coordinates.
+    pub fn level_of_digits(&self) -> f64 {
+        match self.source {
+            RigidSource::Algebraic => self.energy.noise,
+            RigidSource::Geometric => 0.0,
+        }
+    }
+
     /// Goes on with the key of what is made of them.
     pub(crate) fn key(&self, key: Key) -> Key {
         let Self {

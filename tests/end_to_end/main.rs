@@ -20,6 +20,7 @@ mod results;
 mod rubin_free;
 #[cfg(feature = "hdf5")]
 mod same_bytes;
+mod soft_joint;
 mod told;
 mod unseen;
 
