@@ -103,7 +103,7 @@ fn certified_superelement(
         },
     )?;
     let mut certification = ReducedCertification::new(&foreign, &interface, free);
-    certification.notes.extend(given.basis.notes.iter().cloned().chain(reordered));
+    certification.notes.extend(given.basis.notes.iter().chain(&given.notes).cloned().chain(reordered));
     let source = ReducedSource::of(&given);
     drop(partition);
     certification.complete(match held_modes(job, (&given, &interface), (resources, observer)) {
