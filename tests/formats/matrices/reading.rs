@@ -9,13 +9,15 @@ use supel::sparse::Given;
 use super::{fixture, job, pair, stiffness};
 
 /// Files that hold K, or K and M, in doubles; of one that holds several matrices both are taken by their names alone.
-const FILES: [[&str; 2]; 24] = [
+const FILES: [[&str; 2]; 26] = [
     ["k_csr.npz", "m_csc.npz"],
     ["k_csc.npz", "m_csc.npz"],
     ["k_coo.npz", "m_csc.npz"],
     ["k_bsr.npz", "m_csc.npz"],
     ["k_bsr_wide.npz", "m_csc.npz"],
     ["k_dia.npz", "m_csc.npz"],
+    ["k_reserve.npz", "m_csc.npz"],
+    ["k_bsr_reserve.npz", "m_csc.npz"],
     ["dense.npz", "dense.npz"],
     ["dense.npz:K", "dense.npz:M"],
     ["k.npy", "m_fortran_big.npy"],
