@@ -2,7 +2,7 @@
 
 use supel::dofs::{Direction, Dof};
 use supel::error::Error;
-use supel::input::{Digits, read};
+use supel::input::{Allowance, Digits, SingleMatrix, read};
 use supel::job::ModelJob;
 use supel::sparse::Given;
 
@@ -220,5 +220,28 @@ fn packed_files_are_what_they_hold() {
             std::fs::write(&cut, &packed[..packed.len() - 6]).expect("written");
             assert!(stiffness(&cut).is_err(), "{name}.{ending} cut short");
         }
+    }
+}
+
+/// As Fortran reads them: without a point the last digits before the exponent are decimals, without an exponent the scale counts.
+#[test]
+fn decimals_that_a_format_implies() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("k.rsa");
+    for (format, values) in [
+        ("(3F10.3)", ["1500", "2000.", "-3"]),
+        ("(3E10.2)", ["15E1", "2.0E3", "-3-1"]),
+        ("(1P,3D10.3)", ["15D2", "2.D+3", "-30"]),
+        ("(3F10.0)", ["1.5", "2000", "-.003"]),
+    ] {
+        let values: String = values.iter().map(|value| format!("{value:>10}")).collect();
+        let text = format!(
+            "a\n 3 1 1 1\nRSA           3 3 3 0\n(4I4)           (3I4)           {format:<20}\n   1   2   3   4\n   1   2   3\n{values}\n"
+        );
+        std::fs::write(&path, text).expect("written");
+        let matrix = SingleMatrix { file: path.clone(), layout: None, dofs: None };
+        let read = matrix.read(&Allowance::of(None)).unwrap_or_else(|error| panic!("{format}: {error}"));
+        let diagonal: Vec<f64> = (0..3).filter_map(|row| read.input.matrix.get(row, row).copied()).collect();
+        assert_eq!(diagonal, [1.5, 2000.0, -0.003], "{format}");
     }
 }
