@@ -162,7 +162,7 @@ pub enum Error {
         /// The way round.
         advice: &'static str,
     },
-    /// Packed data (gzip, bzip2, zstd) are damaged or cut short.
+    /// Packed data (gzip, bzip2, zstd, members of a zip archive) are damaged or cut short.
     #[entry("E-PACKED", InputData, "copy or create the file again")]
     #[error(
         "{}: the {data} are damaged or cut short behind the first {} that could be unpacked – {source} – copy or create the file again",

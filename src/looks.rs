@@ -103,7 +103,7 @@ fn certified_superelement(
         },
     )?;
     let mut certification = ReducedCertification::new(&foreign, &interface, free);
-    certification.notes.extend(given.basis.notes.iter().cloned().chain(reordered));
+    certification.notes.extend(given.basis.notes.iter().chain(&given.notes).cloned().chain(reordered));
     let source = ReducedSource::of(&given);
     drop(partition);
     certification.complete(match held_modes(job, (&given, &interface), (resources, observer)) {
@@ -152,7 +152,7 @@ fn at_interface(
 /// # Errors
 /// Those of the machine: files that cannot be read, no memory.
 pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer)) -> Result<Examined> {
-    let mut examination = Examination::default();
+    let mut examination = Examination::of(job);
     let mut attempt = job.clone();
     let (facts, partition) = loop {
         let error = match prepared(&Plan::of(&attempt), resources, observer) {

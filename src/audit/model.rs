@@ -234,7 +234,9 @@ impl<'a> Reference<'a> {
 
     /// What the mass before supports says of a component whose file has no mass properties: that it is a body's, and what the job expects.
     fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
-        let mut checks: Vec<Check> = verification::of_weighed_body(self.partition).into_iter().collect();
+        let is_weighed = !self.motions.is_classical() || self.partition.held.count() > 0;
+        let weighed = is_weighed.then(|| verification::of_weighed_body(self.partition)).flatten();
+        let mut checks: Vec<Check> = weighed.into_iter().collect();
         let has_properties = superelement.metadata().model.mass_properties.is_some();
         checks.extend(mass::stated_of_model(superelement, self.partition));
         let is_expected_here = !has_properties || self.partition.fit.is_preloaded();

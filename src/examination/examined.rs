@@ -1,5 +1,7 @@
 //! What an examination found.
 
+use std::path::PathBuf;
+
 use super::culprits::Grounded;
 use super::ends::{self, EndFace};
 use super::finding::{Finding, Severity};
@@ -32,6 +34,8 @@ pub struct Examination {
     interfaces: Vec<Candidate>,
     ends: Vec<EndFace>,
     facts: Option<InputFacts>,
+    /// The nodes of the job, whatever was left out since.
+    given_nodes: Option<PathBuf>,
 }
 
 /// What was found.
@@ -60,6 +64,11 @@ pub struct Examined {
 }
 
 impl Examination {
+    /// Of the model of a job.
+    pub fn of(job: &Job) -> Self {
+        Self { given_nodes: job.model.nodes.clone(), ..Self::default() }
+    }
+
     /// Keeps why a stage has refused a model, and how it goes on; what was wrong before and still is, is said once.
     pub fn refused(&mut self, error: &Error, went_on: Option<&str>) {
         let finding = Finding::of_error(error, went_on);
@@ -85,7 +94,12 @@ impl Examination {
         let masses = diagonal(&partition.mass);
         self.n_massless = Some(masses.iter().filter(|mass| **mass == 0.0).count());
         self.extents = sizes::extents(partition);
-        self.units = Sizes::of(partition).map_or(Units::Untold, units::of);
+        self.units = match Sizes::of(partition) {
+            Some(sizes) => units::of(sizes),
+            None if self.extents.is_some() => Units::NoSpeed,
+            None if self.given_nodes.is_some() => Units::LeftOut,
+            None => Units::Untold,
+        };
         self.interfaces = nodes.map_or_else(Vec::new, |nodes| interfaces::candidates(partition, nodes));
         if !self.interfaces.iter().any(Candidate::holds_all) {
             self.ends = ends::end_faces(partition);
@@ -94,7 +108,7 @@ impl Examination {
 
     /// Ends with what the lowest modes say of the model of a job, where no stage refused it.
     pub fn ended(self, job: Job, body: Option<ReportBody>) -> Examined {
-        let Self { mut findings, grounded, apart, n_massless, extents, units, interfaces, ends, facts } = self;
+        let Self { mut findings, grounded, apart, n_massless, extents, units, interfaces, ends, facts, .. } = self;
         findings.extend(apart);
         let unit = units.only().map_or("", |guess| guess.stiffness);
         findings.extend(grounded.as_ref().and_then(|grounded| held(grounded, body.as_ref(), unit)));

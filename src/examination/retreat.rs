@@ -1,5 +1,7 @@
 //! How an examination goes on after a stage has refused a model.
 
+use std::path::Path;
+
 use crate::error::{Error, ErrorClass};
 use crate::job::Job;
 use crate::sparse::Triangle;
@@ -47,7 +49,13 @@ pub(super) fn retreat(job: &Job, error: &Error) -> Option<Retreat> {
         Error::SameMatrix { .. } | Error::SizeMismatch { .. } => return None,
         // Whatever is wrong with nodes, map or constraints: matrices alone may be sound.
         _ if model.constraints.take().is_some() => "without the constraints",
-        _ if is_of_map(error) && model.dofs.take().is_some() => "without the dof map",
+        // The matrix names its rows.
+        Error::RowUnknown { .. } if model.dofs.take().is_some() => "without the dof map",
+        // Nothing else says which rows are those of a node.
+        _ if is_of_map(error, model.dofs.as_deref()) && model.dofs.take().is_some() => match model.nodes.take() {
+            Some(_) => "without the dof map, and so without the nodes",
+            None => "without the dof map",
+        },
         _ if model.nodes.take().is_some() => "without the nodes",
         _ if model.dofs.take().is_some() => "without the dof map",
         _ => return None,
@@ -61,7 +69,15 @@ pub(super) fn retreat(job: &Job, error: &Error) -> Option<Retreat> {
     Some(Retreat { job: next, how })
 }
 
-fn is_of_map(error: &Error) -> bool {
-    error.code().starts_with("E-MAP")
-        || matches!(error, Error::DofCount { .. } | Error::DofNodeMissing { .. } | Error::RowUnknown { .. })
+/// Whether an error speaks of the dof map, which is at `map`.
+fn is_of_map(error: &Error, map: Option<&Path>) -> bool {
+    match error {
+        Error::DofCount { .. } | Error::DofNodeMissing { .. } => true,
+        Error::TableColumn { path, .. }
+        | Error::TableRow { path, .. }
+        | Error::TableField { path, .. }
+        | Error::MatrixFormat { path, .. }
+        | Error::PackedDamaged { path, .. } => Some(path.as_path()) == map,
+        _ => error.code().starts_with("E-MAP"),
+    }
 }

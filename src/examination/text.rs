@@ -106,6 +106,11 @@ impl Examined {
 pub(super) fn units(units: &Units) -> String {
     let guesses = match units {
         Units::Untold => return "not told without coordinates: give --nodes".to_owned(),
+        Units::LeftOut => return "not told: the nodes that were given were left out".to_owned(),
+        Units::NoSpeed => {
+            return "not told: without mass, or without two nodes that are joined, there is no speed of sound"
+                .to_owned();
+        }
         Units::NoVolume => {
             return "not told: the nodes lie in a plane or on a line, so that the density is unknown".to_owned();
         }

@@ -55,6 +55,10 @@ pub enum Units {
     /// Nothing: there are no coordinates.
     #[default]
     Untold,
+    /// Nothing: the nodes that were given were left out.
+    LeftOut,
+    /// Nothing: the component has no mass, or no two nodes that are joined.
+    NoSpeed,
     /// The nodes lie in a plane or on a line, so that nothing is known of the density.
     NoVolume,
     /// Density and speed of sound are those of these systems, the likeliest first and mixtures last.
@@ -66,7 +70,7 @@ impl Units {
     pub fn guesses(&self) -> &[UnitGuess] {
         match self {
             Self::Guessed(guesses) => guesses,
-            Self::Untold | Self::NoVolume => &[],
+            Self::Untold | Self::LeftOut | Self::NoSpeed | Self::NoVolume => &[],
         }
     }
 

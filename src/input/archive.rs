@@ -1,12 +1,13 @@
 //! Zip archives: members by name, stored or deflated, each compared with its checksum where it is read to its end.
 
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
 use flate2::bufread::DeflateDecoder;
 use rawzip::{CompressionMethod, FileReader, RECOMMENDED_BUFFER_SIZE, ZipArchive, ZipArchiveEntryWayfinder};
 
+use super::source::damage;
 use crate::error::{Error, Result};
 use crate::regular_file;
 
@@ -94,9 +95,23 @@ impl<'a> Archive<'a> {
         }
         if member.method == CompressionMethod::DEFLATE {
             // Deflate ends at 1032 to 1, and what is read grows with what comes.
-            let inflated = DeflateDecoder::new(BufReader::new(packed));
+            let inflated = Inflated { decoder: DeflateDecoder::new(BufReader::new(packed)), unpacked: 0 };
             return Ok(Box::new(entry.verifying_reader(inflated)));
         }
         Err(damaged(format!("a member packed by {:?}", member.method), "one that is stored or deflated"))
+    }
+}
+
+/// Unpacks a member, and tells damage of its data from what the system says.
+struct Inflated<R> {
+    decoder: DeflateDecoder<R>,
+    unpacked: u64,
+}
+
+impl<R: BufRead> Read for Inflated<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let n_read = self.decoder.read(buffer).map_err(|error| damage("data of the archive", self.unpacked, error))?;
+        self.unpacked += n_read as u64;
+        Ok(n_read)
     }
 }

@@ -170,6 +170,9 @@ impl MatrixRole {
 
     /// What entries of it stand for where the format does not say that one triangle stands for both.
     pub(super) fn undeclared(self) -> Declared {
-        if self.takes_any() { Declared::Whole } else { Declared::General }
+        match self {
+            Self::Further | Self::Conversion => Declared::Whole,
+            Self::Stiffness | Self::Mass | Self::Reduced => Declared::General,
+        }
     }
 }

@@ -107,8 +107,10 @@ impl<'a> HeadReader<'a> {
                 &["symmetric", "general", "skew-symmetric"]
             }
         };
+        let values = Values::of_banner(field);
+        let fields: &[&str] = if values.is_some() { &[field] } else { &[] };
         let supported: [(&str, &[&str]); 4] =
-            [(object, &["matrix"]), (format, &["coordinate"]), (field, &["real", "integer"]), (symmetry, symmetries)];
+            [(object, &["matrix"]), (format, &["coordinate"]), (field, fields), (symmetry, symmetries)];
         if let Some((found, _)) = supported.into_iter().find(|(found, known)| !known.contains(found)) {
             return Err(Error::MatrixFlavour { path, line, found: excerpt(found.as_bytes()) });
         }
@@ -117,7 +119,7 @@ impl<'a> HeadReader<'a> {
             ("skew-symmetric", _) => Declared::Skew,
             (_, role) => role.undeclared(),
         };
-        Ok(Some((declared, if field == "integer" { Values::Whole } else { Values::Real })))
+        Ok(values.map(|values| (declared, values)))
     }
 
     /// The size line, or `None` for a comment.

@@ -1,6 +1,6 @@
 //! K and M on the same rows: of one order, and where they name nodes and directions themselves, each row of one label.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use super::format::{OrderSource, ReadMatrix};
@@ -102,9 +102,14 @@ impl RowLabels {
             let unnamed = || Error::RowsUnnamed { path: matrix.input.path.clone(), of };
             labels.extend(matrix.labels.as_ref().ok_or_else(unnamed)?);
         }
-        labels.sort_unstable();
-        labels.dedup();
-        Ok(Self(labels.into_iter().map(Some).collect()))
+        let mut seen = HashSet::with_capacity(labels.len());
+        let mut listed: Vec<(usize, RowLabel)> =
+            labels.into_iter().filter(|label| seen.insert(*label)).enumerate().collect();
+        match of {
+            Unnamed::Reduced => listed.sort_by_key(|(at, label)| label.place_in_superelement(*at)),
+            Unnamed::Model | Unnamed::Single => listed.sort_unstable_by_key(|(_, label)| *label),
+        }
+        Ok(Self(listed.into_iter().map(|(_, label)| Some(label)).collect()))
     }
 }
 

@@ -46,6 +46,16 @@ impl Compressed {
         Self { major, shape, pointers, indices, values, names }
     }
 
+    /// Without what is reserved behind the last entry, which has no meaning: SciPy keeps it until a matrix is pruned.
+    pub(super) fn without_reserve(mut self) -> Self {
+        let n_entries = self.pointers.last().and_then(|last| usize::try_from(*last).ok());
+        if let Some(n_entries) = n_entries.filter(|_| self.indices.len() == self.values.len()) {
+            self.indices.truncate(n_entries);
+            self.values.truncate(n_entries);
+        }
+        self
+    }
+
     #[cfg(feature = "hdf5")]
     pub(super) fn values(&self) -> &[f64] {
         &self.values

@@ -8,6 +8,7 @@ use super::digits::{Digits, digits_of_columns};
 use super::file_start::FileStart;
 use super::frd_modes;
 use super::hdf5_format;
+use super::matlab5;
 use super::member::split_member;
 use super::mode_format::{ModeSource, ReadModes};
 use super::mode_rounding::ModeRounding;
@@ -67,13 +68,14 @@ struct ModeFormat {
 }
 
 /// The formats, those that know more than shapes first; what none of them takes is a matrix of numbers.
-const FORMATS: [ModeFormat; 5] = [
+const FORMATS: [ModeFormat; 6] = [
     ModeFormat {
         is_one: |source, start| start.is_hdf5() && source.member.is_none(),
         read: hdf5_format::foreign_modes,
         along: Along::Rows,
     },
     ModeFormat { is_one: |_, start| op4::begins(start), read: op4::modes, along: Along::Rows },
+    ModeFormat { is_one: |_, start| matlab5::begins(start), read: matlab5::modes, along: Along::Rows },
     ModeFormat { is_one: |_, start| frd_modes::begins(start), read: frd_modes::modes, along: Along::Model },
     ModeFormat { is_one: |_, start| npz::begins(start), read: npz::modes, along: Along::Rows },
     ModeFormat {

@@ -2,6 +2,8 @@
 
 /// The longest number.
 const MAX_NUMBER: usize = 64;
+/// The largest power of ten that a format scales by: a double has no more.
+const MAX_SCALE: i32 = 308;
 
 /// A real number: also one whose exponent is marked by D, or by its sign alone as in `1.5-101` and `7.-3`.
 pub(super) fn real(field: &[u8]) -> Option<f64> {
@@ -31,6 +33,16 @@ pub(super) enum Values {
 }
 
 impl Values {
+    /// What a banner of Matrix Market says by its fourth word; none where these are no numbers that are read.
+    pub(super) fn of_banner(field: &str) -> Option<Self> {
+        match field {
+            // Programs write names of types, too, and readers take them.
+            "real" | "double" => Some(Self::Real),
+            "integer" | "unsigned-integer" => Some(Self::Whole),
+            _ => None,
+        }
+    }
+
     /// What a message expects of a value.
     pub(super) fn expected(self) -> &'static str {
         match self {
@@ -41,7 +53,15 @@ impl Values {
 
     /// The value of a field; none where it is no number, or is declared whole and no double equals it.
     pub(super) fn of_field(self, field: &[u8]) -> Option<f64> {
-        let value = real(field)?;
+        self.checked(field, real(field)?)
+    }
+
+    /// The value of a field of a format, likewise.
+    pub(super) fn of_format(self, field: &[u8], fields: Fields) -> Option<f64> {
+        self.checked(field, fields.real(field)?)
+    }
+
+    fn checked(self, field: &[u8], value: f64) -> Option<f64> {
         (self == Self::Real || is_kept(field, value)).then_some(value)
     }
 }
@@ -69,6 +89,10 @@ pub(super) fn whole(field: &[u8]) -> Option<i64> {
 pub(super) struct Fields {
     pub(super) per_line: usize,
     pub(super) width: usize,
+    /// Digits behind the point of a number that is written without one; none in a format of whole numbers.
+    pub(super) decimals: i32,
+    /// Power of ten by which a number without an exponent is written too large.
+    pub(super) scale: i32,
 }
 
 impl Fields {
@@ -76,9 +100,11 @@ impl Fields {
     pub(super) fn of(format: &[u8]) -> Option<Self> {
         let text = std::str::from_utf8(format).ok()?.trim().trim_start_matches('(').to_ascii_uppercase();
         let text = text.trim_start();
-        let text = match text.split_once('P') {
-            Some((scale, rest)) if scale.trim_start_matches('-').bytes().all(|byte| byte.is_ascii_digit()) => rest,
-            _ => text,
+        let (scale, text) = match text.split_once('P') {
+            Some((scale, rest)) if scale.trim_start_matches('-').bytes().all(|byte| byte.is_ascii_digit()) => {
+                (scale.parse().unwrap_or(0), rest)
+            }
+            _ => (0, text),
         };
         let text = text.trim_start_matches([',', ' ']);
         let letter = text.find(['I', 'E', 'D', 'F', 'G'])?;
@@ -87,8 +113,38 @@ impl Fields {
         let rest = text[letter + 1..].trim_start_matches(['S', 'N']);
         let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
         let width: usize = rest[..end].parse().ok()?;
-        let is_sound = (1..=4096).contains(&per_line) && (1..MAX_NUMBER).contains(&width);
-        is_sound.then_some(Self { per_line, width })
+        let behind = rest[end..].strip_prefix('.').unwrap_or_default();
+        let n_digits = behind.find(|c: char| !c.is_ascii_digit()).unwrap_or(behind.len());
+        let decimals = if text[letter..].starts_with('I') { 0 } else { behind[..n_digits].parse().unwrap_or(0) };
+        let is_sound = (1..=4096).contains(&per_line)
+            && (1..MAX_NUMBER).contains(&width)
+            && (0..MAX_NUMBER as i32).contains(&decimals)
+            && (-MAX_SCALE..=MAX_SCALE).contains(&scale);
+        is_sound.then_some(Self { per_line, width, decimals, scale })
+    }
+
+    /// The number in a field as Fortran reads it: without a point, the last digits before the exponent are decimals; without an
+    /// exponent, the scale of the format counts.
+    pub(super) fn real(self, field: &[u8]) -> Option<f64> {
+        let field = field.trim_ascii();
+        let is_mark = |(at, byte): (usize, &u8)| {
+            matches!(byte, b'e' | b'E' | b'd' | b'D') || at > 0 && matches!(byte, b'+' | b'-')
+        };
+        let end = field.iter().enumerate().position(is_mark).unwrap_or(field.len());
+        let (digits, exponent) = field.split_at(end);
+        let is_number = digits.iter().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'+' | b'-'));
+        let decimals = if digits.contains(&b'.') { 0 } else { self.decimals };
+        let shift = decimals + if exponent.is_empty() { self.scale } else { 0 };
+        if shift == 0 || !is_number {
+            return real(field);
+        }
+        let exponent = match exponent {
+            [] => 0,
+            [b'+' | b'-', ..] => whole(exponent)?,
+            [_, power @ ..] => whole(power)?,
+        };
+        let digits = std::str::from_utf8(digits).ok()?.trim_start_matches('+');
+        fast_float2::parse(format!("{digits}e{}", exponent.checked_sub(shift.into())?)).ok()
     }
 
     /// The field at a place of a line; nothing beyond its end.
@@ -140,21 +196,51 @@ mod tests {
 
     #[test]
     fn formats_of_lines() {
-        for (text, per_line, width) in [
-            ("(16I5)", 16, 5),
-            ("(4E20.12)", 4, 20),
-            ("(1P,4D25.16)", 4, 25),
-            ("(1P3E24.16E3)", 3, 24),
-            ("1P,3E24.16", 3, 24),
-            ("(1I20)  ", 1, 20),
-            ("(E25.17)", 1, 25),
-            ("5e16.9", 5, 16),
-            ("(3ES23.15)", 3, 23),
+        for (text, per_line, width, decimals, scale) in [
+            ("(16I5)", 16, 5, 0, 0),
+            ("(8I6.4)", 8, 6, 0, 0),
+            ("(4E20.12)", 4, 20, 12, 0),
+            ("(1P,4D25.16)", 4, 25, 16, 1),
+            ("(1P3E24.16E3)", 3, 24, 16, 1),
+            ("1P,3E24.16", 3, 24, 16, 1),
+            ("(-2P3F10.3)", 3, 10, 3, -2),
+            ("(1I20)  ", 1, 20, 0, 0),
+            ("(E25.17)", 1, 25, 17, 0),
+            ("5e16.9", 5, 16, 9, 0),
+            ("(3ES23.15)", 3, 23, 15, 0),
         ] {
-            assert_eq!(Fields::of(text.as_bytes()), Some(Fields { per_line, width }), "{text}");
+            assert_eq!(Fields::of(text.as_bytes()), Some(Fields { per_line, width, decimals, scale }), "{text}");
         }
         for text in ["", "(A80)", "(0I5)", "(3E)", "(99999999999999999999I5)", "(2E999)"] {
             assert_eq!(Fields::of(text.as_bytes()), None, "{text}");
+        }
+    }
+
+    /// Fortran 2018, 13.7.2.3: the last d digits are decimals where no point is there, and a scale counts without an exponent.
+    #[test]
+    fn numbers_without_a_point_or_an_exponent_are_those_of_fortran() {
+        for (format, text, value) in [
+            ("3F10.3", "      1500", 1.5),
+            ("3F10.3", "     -1500", -1.5),
+            ("3F10.3", "        +7", 0.007),
+            ("3F10.3", "     1500.", 1500.0),
+            ("3F10.0", "      1500", 1500.0),
+            ("3E20.12", "1500", 1.5e-9),
+            ("3E10.2", "15E3", 150.0),
+            ("3D10.2", "15D3", 150.0),
+            ("3E10.2", "15-3", 1.5e-4),
+            ("3E10.2", "-15+3", -150.0),
+            ("1P,3E25.16", "1.5", 0.15),
+            ("1P,3E25.16", "1.5E+00", 1.5),
+            ("-1P,3F10.1", "15", 15.0),
+            ("2P3F10.3", "1500", 0.015),
+        ] {
+            let fields = Fields::of(format.as_bytes()).expect("a format");
+            assert_eq!(fields.real(text.as_bytes()), Some(value), "{format} {text}");
+        }
+        let fields = Fields::of(b"3F10.3").expect("a format");
+        for text in ["", "-", "+", "1 2", "x", "1e", "--1", "+-1"] {
+            assert_eq!(fields.real(text.as_bytes()), None, "{text}");
         }
     }
 }

@@ -76,7 +76,7 @@ impl MatrixFormat for HarwellBoeing {
         let kept = kind.values();
         let mut values = Vec::with_capacity(room(kind.n_entries));
         let take = |field: &[u8]| {
-            values.push(kept.of_field(field)?);
+            values.push(kept.of_format(field, of_values)?);
             Some(())
         };
         read(&mut lines, (of_values, kind.n_entries), take, kept.expected())?;

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::MatrixRole;
 use super::assembled::Collector;
 use super::blocks::LastLine;
 use super::format::{MatrixSource, OrderSource, ReadMatrix};
@@ -71,7 +72,14 @@ impl<'a> LabelledEntries<'a> {
     ) -> Result<ReadMatrix> {
         let Self { labels, entries, .. } = self;
         let mut order: Vec<u32> = (0..labels.len() as u32).collect();
-        order.sort_unstable_by_key(|number| labels[*number as usize]);
+        let label = |number: &u32| labels[*number as usize];
+        match source.role {
+            MatrixRole::Reduced => order.sort_by_key(|number| {
+                let label = label(number);
+                label.place_in_superelement(label.node.unsigned_abs() as usize)
+            }),
+            _ => order.sort_unstable_by_key(label),
+        }
         let mut rank = vec![0; labels.len()];
         order.iter().zip(0..).for_each(|(number, row)| rank[*number as usize] = row);
         let entries = entries.renumbered(&rank);

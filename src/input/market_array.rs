@@ -83,11 +83,7 @@ fn declared(lines: &Lines<'_>, source: &MatrixSource<'_>) -> Result<(Declared, V
         Err(Error::MatrixFlavour { path: lines.path(), line: lines.number(), found })
     };
     let [field, symmetry] = words[..] else { return flavour(&text) };
-    let values = match field {
-        "real" | "double" => Values::Real,
-        "integer" => Values::Whole,
-        _ => return flavour(field),
-    };
+    let Some(values) = Values::of_banner(field) else { return flavour(field) };
     match symmetry {
         "symmetric" => Ok((Declared::Symmetric, values)),
         "skew-symmetric" if source.role.takes_any() => Ok((Declared::Skew, values)),

@@ -141,7 +141,7 @@ impl Reading<'_> {
         let indices = self.array("indices.npy")?.indices()?;
         let Reals { values, digits } = self.array("data.npy")?.reals()?;
         let names = ["indptr.npy", "indices.npy", "data.npy"].map(str::to_owned);
-        let compressed = Compressed::new(major, shape, pointers, indices, values, names);
+        let compressed = Compressed::new(major, shape, pointers, indices, values, names).without_reserve();
         compressed.into_matrix(self.source, "the matrix", (self.source.role.undeclared(), digits))
     }
 
@@ -190,7 +190,7 @@ impl Reading<'_> {
         // The blocks as entries of a matrix of blocks: its pointers and indices are checked there.
         let positions = (0..indices.len()).map(|at| at as f64).collect();
         let names = ["indptr.npy", "indices.npy", "data.npy"].map(str::to_owned);
-        let of_blocks = Compressed::new(Major::Rows, n_blocks, pointers, indices, positions, names);
+        let of_blocks = Compressed::new(Major::Rows, n_blocks, pointers, indices, positions, names).without_reserve();
         of_blocks.check_parts(self.path(), n_blocks[0] as usize)?;
         let mut entries = self.collector();
         let [high, wide] = [high as usize, wide as usize];

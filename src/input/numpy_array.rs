@@ -43,6 +43,11 @@ pub(super) fn stored_as(descr: &str) -> Option<(Kind, Endian)> {
     matches!(mark, "<" | ">" | "|" | "=").then_some((kind, endian))
 }
 
+/// Whether an archive says of its content that it is not the one that was put in.
+fn is_of_archive(error: &std::io::Error) -> bool {
+    error.get_ref().is_some_and(|inner| inner.is::<rawzip::Error>())
+}
+
 /// What the numbers of an array are read as.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Numbers {
@@ -78,12 +83,13 @@ pub(super) struct Reals {
 impl<'a, R: Read> Array<'a, R> {
     /// Reads the header.
     pub(super) fn open(path: &'a Path, format: &'static str, name: &'a str, mut numbers: R) -> Result<Self> {
+        let wrong = |found| {
+            let (path, place) = (path.to_owned(), format!("the header of {name}, byte 0"));
+            Error::MatrixFormat { path, format, place, found, expected: "a header of numpy.save".into() }
+        };
         let header = Header::read(&mut numbers).map_err(|failure| match failure {
-            NoHeader::Found(found) => {
-                let (path, place) = (path.to_owned(), format!("the header of {name}, byte 0"));
-                let expected = "a header of numpy.save".to_owned();
-                Error::MatrixFormat { path, format, place, found, expected: expected.into() }
-            }
+            NoHeader::Found(found) => wrong(found),
+            NoHeader::Read(error) if is_of_archive(&error) => wrong(error.to_string()),
             NoHeader::Read(error) => read_error(path, error),
         })?;
         Ok(Self { path, format, name, header, numbers })
@@ -127,7 +133,7 @@ impl<'a, R: Read> Array<'a, R> {
         let is_one = self.header.n_numbers() == Some(1);
         let Some(n) = n.filter(|n| *n <= MAX_TEXT && is_one) else { return Err(self.unread("a short text")) };
         let mut bytes = vec![0; (width * n) as usize];
-        let n_read = fill(&mut self.numbers, &mut bytes).map_err(|error| read_error(self.path, error))?;
+        let n_read = fill(&mut self.numbers, &mut bytes).map_err(|error| self.error(Failure::Read(error)))?;
         if n_read < bytes.len() {
             return Err(self.error(Failure::Cut(n_read as u64 / width)));
         }
@@ -216,10 +222,7 @@ impl<'a, R: Read> Array<'a, R> {
                 let expected = "whole numbers that a double equals, and indices that are whole".to_owned();
                 self.not_as(position, found, expected)
             }
-            // What an archive says of its content comes this way, too.
-            Failure::Read(error) if error.get_ref().is_some_and(|inner| inner.is::<rawzip::Error>()) => {
-                self.wrong(0, error.to_string())
-            }
+            Failure::Read(error) if is_of_archive(&error) => self.wrong(0, error.to_string()),
             Failure::Read(error) => read_error(self.path, error),
         }
     }

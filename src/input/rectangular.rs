@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use super::banner::{excerpt, is_comment};
-use super::fortran::real;
+use super::fortran::{Values, real};
 use super::source::{Source, read_error};
 use crate::error::{Error, Result};
 
@@ -177,8 +177,11 @@ impl<'a> Lines<'a> {
         let text = if is_there { self.text().to_ascii_lowercase() } else { String::new() };
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         match words[..] {
-            ["%%matrixmarket", "matrix", "array", "real" | "integer", "general"] => Ok(Layout::Array),
-            ["%%matrixmarket", "matrix", "coordinate", "real" | "integer", "general"] => Ok(Layout::Coordinate),
+            ["%%matrixmarket", "matrix", layout @ ("array" | "coordinate"), field, "general"]
+                if Values::of_banner(field).is_some() =>
+            {
+                Ok(if layout == "array" { Layout::Array } else { Layout::Coordinate })
+            }
             _ if !is_there => Err(Error::NoData { path: self.path(), expected: self.content.expected() }),
             _ => Err(self.format_error(BANNERS)),
         }

@@ -6,7 +6,7 @@ use super::common_rows::{RowLabels, take_notes};
 use super::format::{MatrixSource, ReadMatrix};
 use super::member::split_member;
 use super::model_files::{read_matrix, refuse_duplicates};
-use super::{Allowance, MatrixInput, MatrixRole};
+use super::{Allowance, InputNote, MatrixInput, MatrixRole};
 use crate::dofs::DofMap;
 use crate::error::{Result, Unnamed};
 use crate::job::Duplicates;
@@ -20,6 +20,8 @@ pub struct ReducedPair {
     pub mass: MatrixInput,
     /// What each row is, where both matrices name theirs: none for amplitudes and scalar points.
     pub dofs: Option<DofMap>,
+    /// What reading them did beyond copying: one triangle taken for both, entries added.
+    pub notes: Vec<InputNote>,
 }
 
 impl ReducedPair {
@@ -45,10 +47,11 @@ impl ReducedPair {
         };
         let (stiffness, mass) = (read(stiffness)?, read(mass)?);
         let labels = RowLabels::common(&[&stiffness, &mass], (None, Unnamed::Reduced))?;
-        let placed = |matrix| {
-            let (matrix, _) = take_notes(labels.placed(matrix)?, &mut Vec::new());
+        let mut notes = Vec::new();
+        let mut placed = |matrix| {
+            let (matrix, _) = take_notes(labels.placed(matrix)?, &mut notes);
             refuse_duplicates(&matrix, duplicates).map(|()| matrix)
         };
-        Ok(Self { stiffness: placed(stiffness)?, mass: placed(mass)?, dofs: labels.dof_map() })
+        Ok(Self { stiffness: placed(stiffness)?, mass: placed(mass)?, dofs: labels.dof_map(), notes })
     }
 }

@@ -18,6 +18,13 @@ impl RowLabel {
         (self.node > 0).then_some(Dof { node: self.node, direction })
     }
 
+    /// Where a row is among those of a superelement, of which this is one in a list: rows of nodes in the order of nodes and directions,
+    /// behind those that the program made for itself. Of these the numbers say no more than the order in which they were made.
+    pub(super) fn place_in_superelement(self, listed: usize) -> (bool, usize, Self) {
+        let is_made = self.node < 0;
+        (!is_made, if is_made { listed } else { 0 }, self)
+    }
+
     /// Label and direction of a row that belongs to no node, as a dof map has them: `10,scalar`, and `14,scalar:8` of what a program
     /// numbers 8 at a node.
     pub(super) fn in_map(self) -> String {

@@ -165,7 +165,7 @@ impl Source {
             Stream::Bzip2(decoder) => (Packing::Bzip2, decoder.read(buffer)),
             Stream::Zstd(decoder) => (Packing::Zstd, decoder.read(buffer)),
         };
-        let n_read = read.map_err(|error| damage(packing, self.unpacked, error))?;
+        let n_read = read.map_err(|error| damage(packing.data(), self.unpacked, error))?;
         self.unpacked += n_read as u64;
         self.check_expansion(packing)?;
         Ok(n_read)
@@ -173,12 +173,10 @@ impl Source {
 }
 
 /// Marks what the decoder found wrong in the data, as opposed to what the system said.
-fn damage(packing: Packing, unpacked: u64, error: std::io::Error) -> std::io::Error {
+pub(super) fn damage(data: &'static str, unpacked: u64, error: std::io::Error) -> std::io::Error {
     use std::io::ErrorKind::{InvalidData, InvalidInput, UnexpectedEof};
     match error.kind() {
-        InvalidData | InvalidInput | UnexpectedEof => {
-            std::io::Error::other(Damage { packing, unpacked, source: error })
-        }
+        InvalidData | InvalidInput | UnexpectedEof => std::io::Error::other(Damage { data, unpacked, source: error }),
         _ => error,
     }
 }
@@ -191,9 +189,7 @@ pub(super) fn read_error(path: &Path, error: std::io::Error) -> Error {
             Error::PackedExpansion { path, data: packing.data(), packed, unpacked, limit }
         }
         Err(error) => match error.downcast::<Damage>() {
-            Ok(Damage { packing, unpacked, source }) => {
-                Error::PackedDamaged { path, data: packing.data(), unpacked, source }
-            }
+            Ok(Damage { data, unpacked, source }) => Error::PackedDamaged { path, data, unpacked, source },
             Err(source) => Error::Read { path, source },
         },
     }
@@ -229,7 +225,7 @@ struct Expansion {
 #[derive(Debug, thiserror::Error)]
 #[error("{source}")]
 struct Damage {
-    packing: Packing,
+    data: &'static str,
     /// Bytes that were unpacked before it.
     unpacked: u64,
     source: std::io::Error,

@@ -16,6 +16,7 @@
 use std::collections::HashSet;
 use std::path::Path;
 
+use super::MatrixRole;
 use super::assembled::Collector;
 use super::banner::excerpt;
 use super::blocks::LastLine;
@@ -233,7 +234,10 @@ impl Element {
             });
         };
         let mut order: Vec<u32> = (0..n).collect();
-        order.sort_unstable_by_key(|row| labels[*row as usize]);
+        match source.role {
+            MatrixRole::Reduced => order.sort_by_key(|row| labels[*row as usize].place_in_superelement(*row as usize)),
+            _ => order.sort_unstable_by_key(|row| labels[*row as usize]),
+        }
         let mut rank = vec![0; labels.len()];
         order.iter().zip(0..).for_each(|(row, place)| rank[*row as usize] = place);
         let mut input = entries.renumbered(&rank).into_matrix(source, (n, declared), lines.digest()?)?;

@@ -121,8 +121,8 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> 
     })
 }
 
-/// M-16 of a component that is not one free body – several, one that something holds, one of rows or of mechanisms – by its mass before
-/// supports of the job take rows out of it. None where nodes lack a translation: supports may have taken it out before.
+/// M-16 of a component that is no free body – several, or one that something holds – by its mass before supports of the job take rows out
+/// of it. None where nodes lack a translation: supports may have taken it out before.
 pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
     let weight = partition.model.weight.as_ref().filter(|weight| weight.has_whole_nodes)?;
     Some(of_a_body(weight.motions.as_ref()?.as_ref(), partition.precision.mass.share))

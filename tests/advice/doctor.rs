@@ -100,6 +100,33 @@ fn a_map_of_another_mesh() {
     assert!(finding(&found, findings(&found)[0].0).contains("without the dof map"), "{found}");
 }
 
+/// A map that cannot be read leaves nothing that says which rows are those of a node: coordinates are not compared with rows in any order.
+#[test]
+fn a_damaged_map_is_the_only_finding() {
+    let place = Place::with(&steel_brick());
+    let nodes = String::from_utf8(place.bytes("nodes.csv")).expect("text");
+    let mut lines: Vec<&str> = nodes.lines().collect();
+    lines[1..].reverse();
+    place.write("nodes.csv", (lines.join("\n") + "\n").as_bytes());
+    assert_eq!(findings(&examined(&place, ALL, ExitCode::Done)), [], "the map tells the rows");
+    let map = String::from_utf8(place.bytes("dofs.txt")).expect("text");
+    let (first, rest) = map.split_once('\n').expect("lines");
+    let shorter = rest.rsplit_once('\n').and_then(|(rest, _)| rest.rsplit_once('\n')).expect("lines").0;
+    for (damaged, code) in [
+        (format!("{}\n{rest}", first.replace('.', " ")), "E-MAP-TEXT"),
+        (format!("{first}\n{shorter}\n"), "E-MAP-COUNT"),
+        (format!("knot,dof\n{}", map.replace('.', ",")), "E-TABLE-COLUMN"),
+    ] {
+        place.write("dofs.txt", damaged.as_bytes());
+        let found = examined(&place, ALL, ExitCode::CheckFailed);
+        let codes: Vec<&str> = findings(&found).iter().map(|(code, _)| *code).collect();
+        assert_eq!(codes, [code], "{found}");
+        assert!(finding(&found, code).contains("without the dof map, and so without the nodes"), "{found}");
+        let text = doctor(&place, ALL).out;
+        assert!(text.contains("the nodes that were given were left out") && !text.contains("give --nodes"), "{text}");
+    }
+}
+
 #[test]
 fn matrices_of_two_models() {
     let place = Place::with(&steel_brick());

@@ -31,6 +31,8 @@ pub struct ForeignSuperelement {
     pub mass: ReducedMatrix,
     /// What each row of K̂ and M̂ is, where they name their rows.
     pub dofs: Option<DofMap>,
+    /// What reading K̂ and M̂ did beyond copying, one sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A reduced matrix as it was read.
@@ -56,10 +58,11 @@ impl ForeignSuperelement {
     ) -> Result<Self> {
         let basis = input::foreign_modes(&files.basis, rows, allowance)?;
         let n_columns = basis.columns.len();
-        let ReducedPair { stiffness, mass, dofs } =
+        let ReducedPair { stiffness, mass, dofs, notes } =
             ReducedPair::read([&files.stiffness, &files.mass], (duplicates, allowance))?;
         let matrix = |input| ReducedMatrix::of(input, n_columns);
-        Ok(Self { stiffness: matrix(stiffness)?, mass: matrix(mass)?, basis, dofs })
+        let notes = notes.iter().map(ToString::to_string).collect();
+        Ok(Self { stiffness: matrix(stiffness)?, mass: matrix(mass)?, basis, dofs, notes })
     }
 
     /// r.

@@ -115,9 +115,13 @@ impl Array {
 
     /// Whether it can be a matrix of a model: numbers of two dimensions, as many rows as columns.
     pub(super) fn is_matrix(&self) -> bool {
-        let is_numbers = !matches!(self.class, Class::Other(_));
         let is_square = self.shape[0] == self.shape[1] && (self.shape[0] > 0 || self.class == Class::Sparse);
-        is_numbers && self.n_dimensions == 2 && is_square
+        self.is_table() && is_square
+    }
+
+    /// Whether it is numbers of two dimensions.
+    pub(super) fn is_table(&self) -> bool {
+        !matches!(self.class, Class::Other(_)) && self.n_dimensions == 2
     }
 
     /// Whether it is one number, as they lie next to matrices in most files.

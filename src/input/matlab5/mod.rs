@@ -9,6 +9,9 @@
 
 mod element;
 mod file;
+mod modes;
+mod picked;
 mod reader;
 
-pub(super) use reader::Matlab5;
+pub(super) use modes::modes;
+pub(super) use reader::{Matlab5, begins};

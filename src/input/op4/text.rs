@@ -19,7 +19,7 @@ use crate::input::lines::Lines;
 use crate::number::counted;
 
 /// Fields of a matrix whose head does not say.
-const USUAL: Fields = Fields { per_line: 5, width: 16 };
+const USUAL: Fields = Fields { per_line: 5, width: 16, decimals: 0, scale: 0 };
 
 /// Whether a file begins as OUTPUT4 in text does.
 pub(super) fn begins(head: &[u8]) -> bool {

@@ -160,3 +160,58 @@ fn shapes_in_output4() {
     let ended = supel(&["certify", &k, &m, &place.text("short.op4")]).expect(ExitCode::InputData);
     assert!(ended.err.contains("E-MODES-ROWS") && ended.err.contains("4 rows"), "{}", ended.err);
 }
+
+/// An array of MATLAB level 5 in doubles, column by column.
+fn matlab_array(name: &str, columns: &[Vec<f64>]) -> Vec<u8> {
+    let element = |kind: u32, content: &[u8]| {
+        let mut bytes = [kind.to_le_bytes(), (content.len() as u32).to_le_bytes()].concat();
+        bytes.extend(content);
+        bytes.resize(bytes.len().next_multiple_of(8), 0);
+        bytes
+    };
+    let sizes = [columns[0].len(), columns.len()].map(|size| (size as u32).to_le_bytes()).concat();
+    let values: Vec<u8> = columns.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+    let parts =
+        [element(6, &[6, 0, 0, 0, 0, 0, 0, 0]), element(5, &sizes), element(1, name.as_bytes()), element(9, &values)];
+    element(14, &parts.concat())
+}
+
+/// Modes in the columns of a variable of MATLAB level 5: the only one that is no single number, or the one that is named.
+#[test]
+fn shapes_in_matlab_level_5() {
+    let pairs = pairs();
+    let place = place_of(&bar(), &pairs);
+    let expected = answer(&place, &place.text("V.mtx"), ["--hz", &place.text("f.txt")]);
+    let head = [&[b' '; 124][..], &[0, 1, b'I', b'M']].concat();
+    let number = matlab_array("n", &[vec![12.0]]);
+    let shapes = matlab_array("psi", &pairs.shapes);
+    place.write("one.mat", &[&head[..], &number, &shapes].concat());
+    place.write("two.mat", &[&head[..], &matlab_array("other", &pairs.shapes[..2]), &shapes].concat());
+    for name in ["one.mat", "one.mat:psi", "two.mat:psi"] {
+        assert_eq!(answer(&place, &place.text(name), ["--hz", &place.text("f.txt")]), expected, "{name}");
+    }
+    let [k, m] = ["K.mtx", "M.mtx"].map(|name| place.text(name));
+    for (name, code, told) in [
+        ("two.mat", "E-MATRIX-AMBIGUOUS", "other, psi"),
+        ("two.mat:phi", "E-NO-SUCH-MATRIX", "other, psi"),
+        ("one.mat:n", "E-MODES-ROWS", "1 row"),
+    ] {
+        let ended = supel(&["certify", &k, &m, &place.text(name)]).expect(ExitCode::InputData);
+        assert!(ended.err.contains(code) && ended.err.contains(told), "{name}: {}", ended.err);
+    }
+    let mut not_finite = pairs.shapes.clone();
+    not_finite[1][2] = f64::NAN;
+    place.write("nan.mat", &[&head[..], &matlab_array("psi", &not_finite)].concat());
+    let ended = supel(&["certify", &k, &m, &place.text("nan.mat")]).expect(ExitCode::InputData);
+    assert!(ended.err.contains("row 3, column 2"), "{}", ended.err);
+}
+
+/// A banner may name the type of the numbers as programs do.
+#[test]
+fn shapes_of_double_numbers() {
+    let place = place_of(&bar(), &pairs());
+    let expected = answer(&place, &place.text("V.mtx"), ["--hz", &place.text("f.txt")]);
+    let text = String::from_utf8(place.bytes("V.mtx")).expect("text");
+    place.write("double.mtx", text.replacen(" real ", " double ", 1).as_bytes());
+    assert_eq!(answer(&place, &place.text("double.mtx"), ["--hz", &place.text("f.txt")]), expected);
+}

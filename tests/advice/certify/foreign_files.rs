@@ -94,17 +94,93 @@ fn text_files_of_abaqus_give_the_same_answer_in_any_order_of_rows() {
     place.write("k.txt", labels(&foreign.stiffness, &order).as_bytes());
     place.write("m.txt", labels(&foreign.mass, &order).as_bytes());
     let named = place.text("named.mtx");
-    for files in [[named.clone() + ":STIFFNESS", named + ":MASS"], [place.text("k.txt"), place.text("m.txt")]] {
+    let of_element = [named.clone() + ":STIFFNESS", named + ":MASS"];
+    let of_lines = [place.text("k.txt"), place.text("m.txt")];
+    // A line for each pair of rows does not say that it stands for both.
+    for (files, mirrored) in [(of_element, &[][..]), (of_lines, &["k.txt: ", "m.txt: "])] {
         let mut found = answer(&place, [&files[0], &files[1]]);
         let notes = found["notes"].as_array_mut().expect("notes");
         let told = notes.pop().expect("a note").to_string();
         assert!(told.contains("12 rows of K̂ and M̂ were put to the columns"), "{told}");
+        let of_files = notes.split_off(notes.len() - mirrored.len());
+        for (note, file) in of_files.iter().zip(mirrored) {
+            assert!(note.to_string().contains(file) && note.to_string().contains("it was mirrored"), "{note}");
+        }
         assert_eq!(found, expected, "{files:?}");
     }
     let in_order: Vec<_> = (0..order.len()).map(|at| (at, 0, 1)).collect();
     place.write("unnamed.mtx", user_element(&foreign, &in_order, Nodes::Unnamed).as_bytes());
     let unnamed = place.text("unnamed.mtx");
     assert_eq!(answer(&place, [&(unnamed.clone() + ":stiffness"), &(unnamed + ":mass")]), expected);
+}
+
+/// Abaqus numbers what it makes for itself down from −1: amplitudes are in the order in which a user element lists them, and away from zero
+/// where lines have no order.
+#[test]
+fn amplitudes_of_negative_labels_keep_their_order() {
+    let n_modes = 12;
+    let foreign = Foreign::craig_bampton(&steel_brick(), &interface(), n_modes);
+    let place = Place::with(&steel_brick());
+    foreign.write(&place);
+    let checks = |found: &Value| found["checks"].clone();
+    let expected = checks(&serde_json::from_str(&certify(&place, "--json").expect(ExitCode::Done).out).expect("JSON"));
+    let last = n_modes as i64;
+    let labelled = |label: &dyn Fn(i64) -> i64| -> Vec<Named> {
+        let renamed = named(n_modes).into_iter();
+        renamed
+            .map(|(at, node, dof)| if at < n_modes { (at, label(at as i64), dof) } else { (at, node, dof) })
+            .collect()
+    };
+    for (name, order) in [("down.mtx", labelled(&|at| -1 - at)), ("up.mtx", labelled(&|at| at - last))] {
+        place.write(name, user_element(&foreign, &order, Nodes::Named).as_bytes());
+        let file = place.text(name);
+        let found = answer(&place, [&(file.clone() + ":STIFFNESS"), &(file + ":MASS")]);
+        assert_eq!(checks(&found), expected, "{name}");
+    }
+    let mut order = labelled(&|at| -1 - at);
+    order.reverse();
+    place.write("k.txt", labels(&foreign.stiffness, &order).as_bytes());
+    place.write("m.txt", labels(&foreign.mass, &order).as_bytes());
+    assert_eq!(checks(&answer(&place, [&place.text("k.txt"), &place.text("m.txt")])), expected);
+}
+
+/// K̂ and M̂ are symmetric as K and M are: one triangle stands for both where a file does not say so, and the answer tells.
+#[test]
+fn one_triangle_of_reduced_matrices_is_mirrored() {
+    let foreign = Foreign::craig_bampton(&steel_brick(), &interface(), 12);
+    let place = Place::with(&steel_brick());
+    foreign.write(&place);
+    let mut expected: Value =
+        serde_json::from_str(&certify(&place, "--json").expect(ExitCode::Done).out).expect("JSON");
+    expected["superelement"] = Value::Null;
+    for (name, matrix) in [("k", &foreign.stiffness), ("m", &foreign.mass)] {
+        let r = matrix.nrows();
+        let value = |i: usize, j: usize| 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
+        let mut text = format!("%%MatrixMarket matrix coordinate real general\n{r} {r} {}\n", r * (r + 1) / 2);
+        for (i, j) in (0..r).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            text += &format!("{} {} {:e}\n", i + 1, j + 1, value(i, j));
+        }
+        place.write(&format!("{name}.mtx"), text.as_bytes());
+        let head = format!("{{'descr': '<f8', 'fortran_order': True, 'shape': ({r}, {r}), }}\n");
+        let length = u16::try_from(head.len()).expect("short").to_le_bytes();
+        let triangle = (0..r).flat_map(|j| (0..r).map(move |i| if i <= j { value(i, j) } else { 0.0 }));
+        let bytes: Vec<u8> = triangle.flat_map(f64::to_le_bytes).collect();
+        let array = [b"\x93NUMPY\x01\x00".as_slice(), &length, head.as_bytes(), &bytes].concat();
+        place.write(&format!("{name}.npy"), &array);
+    }
+    for ending in ["mtx", "npy"] {
+        let files = ["k", "m"].map(|name| format!("{name}.{ending}"));
+        let mut found = answer(&place, [&place.text(&files[0]), &place.text(&files[1])]);
+        let notes = found["notes"].as_array_mut().expect("notes");
+        let told = notes.split_off(notes.len() - 2);
+        for (note, file) in told.iter().zip(&files) {
+            assert!(
+                note.to_string().contains(&format!("{file}: only one triangle is given; it was mirrored")),
+                "{note}"
+            );
+        }
+        assert_eq!(found, expected, "{ending}");
+    }
 }
 
 fn root(name: &str) -> String {

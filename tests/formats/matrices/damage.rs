@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
-use supel::error::Error;
+use supel::error::{Error, ErrorClass};
 use supel::input::read;
 
 use super::{fixture, job, stiffness};
@@ -147,14 +147,17 @@ fn every_file_cut_at_every_byte() {
 #[test]
 fn packed_files_with_a_changed_bit_hold_no_other_matrix() {
     let folder = tempfile::tempdir().expect("a folder");
-    for name in ["sparse_deflated.mat", "k_csr.npz"] {
+    for name in ["sparse_deflated.mat", "k_csr.npz", "m_csc.npz"] {
         let content = std::fs::read(fixture(name)).expect("a fixture");
         let sound = stiffness(&written(folder.path(), name, &content)).expect("a matrix");
         for (at, bit) in (0..content.len()).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
             let mut changed = content.clone();
             changed[at] ^= 1 << bit;
-            if let Ok(found) = stiffness(&written(folder.path(), name, &changed)) {
-                assert_eq!(found, sound, "{name}: bit {bit} of byte {at}");
+            match stiffness(&written(folder.path(), name, &changed)) {
+                Ok(found) => assert_eq!(found, sound, "{name}: bit {bit} of byte {at}"),
+                Err(error) => {
+                    assert_eq!(error.class(), ErrorClass::InputData, "{name}: bit {bit} of byte {at}: {error}");
+                }
             }
         }
     }

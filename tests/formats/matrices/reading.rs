@@ -2,20 +2,22 @@
 
 use supel::dofs::{Direction, Dof};
 use supel::error::Error;
-use supel::input::{Digits, read};
+use supel::input::{Allowance, Digits, SingleMatrix, read};
 use supel::job::ModelJob;
 use supel::sparse::Given;
 
 use super::{fixture, job, pair, stiffness};
 
 /// Files that hold K, or K and M, in doubles; of one that holds several matrices both are taken by their names alone.
-const FILES: [[&str; 2]; 24] = [
+const FILES: [[&str; 2]; 26] = [
     ["k_csr.npz", "m_csc.npz"],
     ["k_csc.npz", "m_csc.npz"],
     ["k_coo.npz", "m_csc.npz"],
     ["k_bsr.npz", "m_csc.npz"],
     ["k_bsr_wide.npz", "m_csc.npz"],
     ["k_dia.npz", "m_csc.npz"],
+    ["k_reserve.npz", "m_csc.npz"],
+    ["k_bsr_reserve.npz", "m_csc.npz"],
     ["dense.npz", "dense.npz"],
     ["dense.npz:K", "dense.npz:M"],
     ["k.npy", "m_fortran_big.npy"],
@@ -218,5 +220,28 @@ fn packed_files_are_what_they_hold() {
             std::fs::write(&cut, &packed[..packed.len() - 6]).expect("written");
             assert!(stiffness(&cut).is_err(), "{name}.{ending} cut short");
         }
+    }
+}
+
+/// As Fortran reads them: without a point the last digits before the exponent are decimals, without an exponent the scale counts.
+#[test]
+fn decimals_that_a_format_implies() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("k.rsa");
+    for (format, values) in [
+        ("(3F10.3)", ["1500", "2000.", "-3"]),
+        ("(3E10.2)", ["15E1", "2.0E3", "-3-1"]),
+        ("(1P,3D10.3)", ["15D2", "2.D+3", "-30"]),
+        ("(3F10.0)", ["1.5", "2000", "-.003"]),
+    ] {
+        let values: String = values.iter().map(|value| format!("{value:>10}")).collect();
+        let text = format!(
+            "a\n 3 1 1 1\nRSA           3 3 3 0\n(4I4)           (3I4)           {format:<20}\n   1   2   3   4\n   1   2   3\n{values}\n"
+        );
+        std::fs::write(&path, text).expect("written");
+        let matrix = SingleMatrix { file: path.clone(), layout: None, dofs: None };
+        let read = matrix.read(&Allowance::of(None)).unwrap_or_else(|error| panic!("{format}: {error}"));
+        let diagonal: Vec<f64> = (0..3).filter_map(|row| read.input.matrix.get(row, row).copied()).collect();
+        assert_eq!(diagonal, [1.5, 2000.0, -0.003], "{format}");
     }
 }

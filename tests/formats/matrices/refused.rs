@@ -157,11 +157,15 @@ fn whole_numbers_that_no_double_equals() {
         matrix.read(&supel::input::Allowance::of(None)).map(|read| read.input.matrix.get(0, 0).copied())
     };
     for kind in ["coordinate", "array"] {
-        assert_eq!(read(of_market(kind, kept, "integer")).expect("kept"), Some(9_007_199_254_740_994.0), "{kind}");
-        let error = read(of_market(kind, lost, "integer")).expect_err("no double");
-        assert_says(&error, "E-ENTRY", &[lost, "up to 2^53"]);
+        for field in ["integer", "unsigned-integer"] {
+            assert_eq!(read(of_market(kind, kept, field)).expect("kept"), Some(9_007_199_254_740_994.0), "{kind}");
+            let error = read(of_market(kind, lost, field)).expect_err("no double");
+            assert_says(&error, "E-ENTRY", &[lost, "up to 2^53"]);
+        }
         // A real number is the nearest double.
-        assert_eq!(read(of_market(kind, lost, "real")).expect("real"), Some(-9_007_199_254_740_992.0), "{kind}");
+        for field in ["real", "double"] {
+            assert_eq!(read(of_market(kind, lost, field)).expect("real"), Some(-9_007_199_254_740_992.0), "{kind}");
+        }
     }
     assert_eq!(read(of_boeing(kept, "integer")).expect("kept"), Some(9_007_199_254_740_994.0));
     assert_says(&read(of_boeing(lost, "integer")).expect_err("no double"), "E-MATRIX-FORMAT", &[lost, "up to 2^53"]);
