@@ -157,11 +157,12 @@ fn a_lumped_mass_direction_by_direction_of_a_held_block() {
 
 /// Neither do other bodies, nor springs to the ground: what is not one free body has a mass all the same.
 #[test]
-fn a_mass_direction_by_direction_of_two_bodies_and_on_springs() {
+fn a_lumped_mass_direction_by_direction_of_two_bodies_and_on_springs() {
     let two = join(&block(), &translated(&block(), [10.0, 2.0, 1.0]), &[]);
     let corners = [1, 7, 84].into_iter().flat_map(|label| (3 * (label - 1))..3 * label);
     let carried = corners.fold(block(), |model, row| grounded(&model, row, 1e8));
     for (name, sound, end) in [("two bodies", two, "B.XMAX"), ("on springs", carried, "XMAX")] {
+        let sound = lumped_of(&sound);
         for (model, code) in [(sound.clone(), ExitCode::Done), (direction_by_direction(&sound), ExitCode::CheckFailed)]
         {
             let place = Place::with(&model);
