@@ -744,6 +744,29 @@ pub enum Error {
         /// What was found, in words.
         found: String,
     },
+    /// Axes of nodes have too few digits: rigid-body motions make forces that only their rounding explains.
+    #[entry(
+        "E-FRAME-DIGITS",
+        InputData,
+        "write the axes with all their digits, five decimals at least; a direction may have any length, so that whole numbers can stand \
+         for it"
+    )]
+    #[error(
+        "{}:{line}: {found}: rows and axes of the model are turned against each other by {} rad at least – expected axes with all their digits, \
+         {} decimals at least: the stiffness knows the angle better – write more digits; a direction may have any length, so that 1,1,0 \
+         is exact and 0.7,0.7,0 is taken as rounded",
+        path.display(), quantity(*angle, 2), crate::dofs::AxisDigits::ENOUGH
+    )]
+    FrameDigits {
+        /// The table.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// Node, digits and effect, in words.
+        found: String,
+        /// How far the axes are turned at least.
+        angle: f64,
+    },
     /// A node with axes of its own lacks rows of one of its directions.
     #[entry(
         "E-FRAME-ROWS",
@@ -1948,7 +1971,8 @@ pub enum Error {
         incomplete, say which one holds with `model.symmetric` (`reduce --symmetric`)"
     )]
     #[error(
-        "the {matrix} matrix is not symmetric – worst at {place} – found a difference of {asymmetry:.1e} of its rows – \
+        "the {matrix} matrix is not symmetric – worst at {place} – found a difference of {asymmetry:.1e} of its rows, and {of_largest:.1e} of \
+        the largest entry – \
         expected below 1e-3, and below 1e-6 of the largest entry – take follower forces, gyroscopic and friction terms out and give them as matrices of \
         their own, [[matrix]] in the job; where the file lacks part of a triangle, take the other one: \
         model.symmetric = \"lower\" or \"upper\" (reduce --symmetric)"
@@ -1958,7 +1982,9 @@ pub enum Error {
         matrix: &'static str,
         /// The largest |A_ij − A_ji| / √(A_ii A_jj).
         asymmetry: f64,
-        /// Row and column of this difference, from one, with their dofs where known.
+        /// max |A − Aᵀ| / max |A|.
+        of_largest: f64,
+        /// Row and column of the first difference, from one, with their dofs where known.
         place: String,
         /// Entries below and above the diagonal that have none at their mirror image.
         unpaired: [usize; 2],

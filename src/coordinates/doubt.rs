@@ -9,7 +9,7 @@ use crate::dofs::Direction;
 use crate::model::Finding;
 
 /// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
-const SIX_DIGITS: f64 = 1e-6;
+pub(super) const SIX_DIGITS: f64 = 1e-6;
 /// Displacement out of place, in units of the size of a body, that coordinates of five digits leave. Of a free body zero modes mend
 /// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
 pub(super) const FIVE_DIGITS: f64 = 2e-5;

@@ -77,9 +77,11 @@ impl Case<'_> {
         };
         let cost = of_first_elastic(cost(&worst), zeros.first_elastic(0));
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
+        // As many as all bodies have motions: soft supports leave them some at most, rows along axes that are slightly off all.
+        let is_askew = zeros.count() >= self.free.iter().map(|free| free.n_moving).sum::<usize>();
         // Where supports touch most rows, the others prove too little; where they touch none, there are no supports.
         let is_unexplained = zeros.count() > self.n_explained
-            && cost.energy > ROUNDED
+            && (cost.energy > ROUNDED || is_askew)
             && (self.are_mostly_touched() || n_touched == 0 || zeros.n_rigid(motions, doubts)? > self.n_explained);
         if !is_unexplained {
             return Ok(CoordinateFit::Exact);

@@ -22,9 +22,13 @@
 //!
 //! K of a preloaded state answers rotations with its internal forces as they turn; `preload` compares them, and nothing is mended.
 //!
+//! Axes that the job gives for nodes to few digits make forces at these nodes, within what the digits leave open: `axis_digits` refuses
+//! them.
+//!
 //! Local frames at a few nodes look like supports to K, and `local_frames` tells them apart where no support is near. Next to one a mass
 //! that couples nodes shows them.
 
+mod axis_digits;
 mod doubt;
 mod free;
 mod judgement;
@@ -67,6 +71,7 @@ pub fn compared(model: Model, held: &[Direction], tied: &TiedNodes) -> Result<Mo
     };
     let motions = Motions::of(&model, &sites);
     let nodes = Nodes::of_model(&motions);
+    axis_digits::refuse_few_digits(&motions)?;
     local_frames::refuse_local_frames(&motions, &nodes)?;
     if let Some(forces) = &model.internal_forces {
         preload::confirmed(&motions, &nodes, forces, tied)?;

@@ -14,7 +14,7 @@ pub(super) const NOTICEABLE: f64 = 100.0;
 pub(super) const FIRST_ROTATION: usize = 3;
 /// Force of a translation, relative to the terms of its row, above which a support touches the row: far above what a
 /// producer rounds, far below any support.
-const TOUCHED: f64 = 1e-9;
+pub(super) const TOUCHED: f64 = 1e-9;
 /// Displacement by a unit rotation, relative to the size of the body, below which it is none.
 const NO_LEVER: f64 = 1e-9;
 /// Bits of the three axes: displacements, and rotations.

@@ -1,4 +1,7 @@
-//! Axes from two directions.
+//! Axes from two directions, and how many digits they were given with.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// Three axes, each by its components along those of the model.
 pub(crate) type Axes = [[f64; 3]; 3];
@@ -30,4 +33,50 @@ pub(crate) fn unit(vector: [f64; 3]) -> [f64; 3] {
     let scaled = vector.map(|value| value / largest);
     let length = scaled.iter().map(|value| value * value).sum::<f64>().sqrt();
     scaled.map(|value| value / length)
+}
+
+/// Axes of nodes that look rounded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RoundedAxes {
+    /// The table.
+    pub path: PathBuf,
+    /// The nodes, by label.
+    pub of_node: BTreeMap<i64, AxisDigits>,
+}
+
+/// The digits of the axes of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AxisDigits {
+    /// Line of the table, from 1.
+    pub line: u64,
+    /// Decimals of their components.
+    pub decimals: i32,
+}
+
+impl AxisDigits {
+    /// Decimals that leave an angle of a hundred-thousandth, which error bars can hold.
+    pub const ENOUGH: i32 = 5;
+
+    /// What components may be off by: half a unit of the last decimal.
+    pub fn off(self) -> f64 {
+        0.5 * 10f64.powi(-self.decimals)
+    }
+
+    /// Whether error bars hold what the digits leave open. Fewer are refused where the stiffness shows that the axes are off.
+    pub fn are_enough(self) -> bool {
+        self.decimals >= Self::ENOUGH
+    }
+}
+
+impl RoundedAxes {
+    /// The node with the fewest digits of those that error bars hold.
+    pub fn coarsest_in_bars(&self) -> Option<(i64, AxisDigits)> {
+        let of_bars = self.of_node.iter().filter(|(_, digits)| digits.are_enough());
+        of_bars.min_by_key(|(_, digits)| digits.decimals).map(|(node, digits)| (*node, *digits))
+    }
+
+    /// What components may be off by as far as error bars hold it.
+    pub fn off_in_bars(&self) -> f64 {
+        self.coarsest_in_bars().map_or(0.0, |(_, digits)| digits.off())
+    }
 }

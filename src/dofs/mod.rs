@@ -6,6 +6,7 @@ mod file_rows;
 mod nodes;
 
 pub(crate) use axes::{Axes, cross, spanned, unit};
+pub use axes::{AxisDigits, RoundedAxes};
 pub(crate) use dof::gyration;
 pub use dof::{Dof, DofMap};
 pub use file_rows::{FileRows, RowNames};

@@ -21,7 +21,7 @@ pub struct EndFace {
 
 /// The faces at both ends of the longest extent, where both are flat; of the next one where they are not. A face with a held node is none
 /// that an interface could be.
-pub(super) fn end_faces(partition: &Partition) -> Vec<EndFace> {
+pub(super) fn end_faces(partition: &Partition, held: &[[f64; 3]]) -> Vec<EndFace> {
     let Some(sites) = partition.sites() else { return Vec::new() };
     let mut positions: Vec<(u32, [f64; 3])> = Vec::new();
     for (dof, site) in partition.dofs.iter().zip(sites) {
@@ -30,8 +30,7 @@ pub(super) fn end_faces(partition: &Partition) -> Vec<EndFace> {
     positions.sort_by_key(|(node, _)| *node);
     positions.dedup_by_key(|(node, _)| *node);
     let positions: Vec<[f64; 3]> = positions.into_iter().map(|(_, position)| position).collect();
-    let held: Vec<[f64; 3]> = partition.held.positions().collect();
-    let all = || positions.iter().chain(&held);
+    let all = || positions.iter().chain(held);
     let end = |axis: usize, pick: fn(f64, f64) -> f64| all().map(|position| position[axis]).reduce(pick);
     let ends = |axis: usize| Some([end(axis, f64::min)?, end(axis, f64::max)?]);
     let mut axes: Vec<(usize, [f64; 2])> = (0..3).filter_map(|axis| Some((axis, ends(axis)?))).collect();

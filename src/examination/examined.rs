@@ -1,5 +1,6 @@
 //! What an examination found.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::culprits::Grounded;
@@ -100,9 +101,10 @@ impl Examination {
             None if self.given_nodes.is_some() => Units::LeftOut,
             None => Units::Untold,
         };
-        self.interfaces = nodes.map_or_else(Vec::new, |nodes| interfaces::candidates(partition, nodes));
+        let held = held_positions(partition, nodes);
+        self.interfaces = nodes.map_or_else(Vec::new, |nodes| interfaces::candidates(partition, nodes, &held));
         if !self.interfaces.iter().any(Candidate::holds_all) {
-            self.ends = ends::end_faces(partition);
+            self.ends = ends::end_faces(partition, &held);
         }
     }
 
@@ -126,6 +128,19 @@ impl Examined {
     pub fn severity(&self) -> Option<Severity> {
         self.findings.iter().map(|finding| finding.severity).max()
     }
+}
+
+/// Where nodes have a dof that the job or a constraint holds, as often as they have some.
+fn held_positions(partition: &Partition, nodes: Option<&Nodes>) -> Vec<[f64; 3]> {
+    let by_constraints: BTreeSet<i64> = partition
+        .followers
+        .iter()
+        .filter(|follower| follower.is_held)
+        .filter_map(|follower| Some(follower.dof?.node))
+        .collect();
+    let of_nodes = nodes.into_iter().flat_map(|nodes| nodes.labels.iter().zip(&nodes.coordinates));
+    let by_constraints = of_nodes.filter(|(label, _)| by_constraints.contains(label)).map(|(_, position)| *position);
+    partition.held.positions().chain(by_constraints).collect()
 }
 
 /// Rows with a stiffness and a mass of their own that are coupled with no other one, next to rows that are. A note of the model has those

@@ -56,7 +56,7 @@ pub struct Surface {
 }
 
 /// What the groups of a mesh are good for.
-pub(super) fn candidates(partition: &Partition, nodes: &Nodes) -> Vec<Candidate> {
+pub(super) fn candidates(partition: &Partition, nodes: &Nodes, held: &[[f64; 3]]) -> Vec<Candidate> {
     let mut of_label = HashMap::new();
     for (at, dof) in partition.dofs.iter().enumerate() {
         if let Some(dof) = dof.dof {
@@ -65,7 +65,7 @@ pub(super) fn candidates(partition: &Partition, nodes: &Nodes) -> Vec<Candidate>
     }
     let n_nodes = of_label.len();
     let bits = |position: [f64; 3]| position.map(f64::to_bits);
-    let held: HashSet<[u64; 3]> = partition.held.positions().map(bits).collect();
+    let held: HashSet<[u64; 3]> = held.iter().copied().map(bits).collect();
     let of_group = |(name, members): (&String, &Vec<usize>)| {
         let n_held = members.iter().filter(|member| held.contains(&bits(nodes.coordinates[**member]))).count();
         if n_held > 0 {

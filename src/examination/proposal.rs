@@ -28,6 +28,9 @@ pub fn proposal(examined: &Examined, folder: &Path, superelement: &str) -> Strin
     let n_interfaces = proposal.interfaces(&mut text);
     proposal.held(&mut text);
     text += &proposal.reduction(n_interfaces);
+    if let Some(memory_gib) = examined.job.run.memory_gib {
+        text += &format!("\n[run]\n{}", line("memory_gib", memory_gib, ""));
+    }
     let _ = write!(text, "\n[write]\nsuperelement = {}\n", Value::from(superelement));
     text
 }
@@ -84,6 +87,7 @@ impl Proposal<'_> {
             ("mass", &model.mass),
             ("dofs", &model.dofs),
             ("nodes", &model.nodes),
+            ("frames", &model.frames),
             ("constraints", &model.constraints),
         ];
         for (key, file) in files {
@@ -174,8 +178,10 @@ impl Proposal<'_> {
             return text;
         };
         let listed: Vec<String> = modes.iter().map(|mode| quantity(mode.frequency_hz, 4)).collect();
-        text +=
-            &comment(&format!("The lowest elastic frequencies of the free component are {} Hz.", listed.join(", ")));
+        let is_held = !job.fixed.is_empty() || job.model.constraints_to_ground != ConstraintsToGround::default();
+        let component = if is_held { "held" } else { "free" };
+        let listed = listed.join(", ");
+        text += &comment(&format!("The lowest elastic frequencies of the {component} component are {listed} Hz."));
         let up_to = rounded_up(2.0 * highest);
         let table = Value::Table([("up_to_hz".to_owned(), up_to.into())].into_iter().collect());
         text += &line("modes", table, "check: twice the highest frequency that the simulation excites");

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::blocks::LastLine;
 use super::bulk_lines::{BulkLines, Place};
 use crate::error::{Error, Result};
 
@@ -79,6 +80,10 @@ impl<'a> Cards<'a> {
                 if line.starts_with(b"$") || line.trim_ascii().is_empty() {
                     continue;
                 }
+                if line.starts_with(b"=") {
+                    let expected = "entries written out: those that repeat the one before them are not read";
+                    return Err(wrong(&self.lines.place(), line.trim_ascii(), expected));
+                }
                 let Some(more) = continued_fields(line) else {
                     self.is_ahead = true;
                     break;
@@ -91,9 +96,10 @@ impl<'a> Cards<'a> {
         }
     }
 
-    /// BLAKE3 of the deck, with what it includes.
-    pub(super) fn digest(self) -> Result<String> {
-        self.lines.digest()
+    /// BLAKE3 of the deck, with what it includes, and whether the last line that was read is complete.
+    pub(super) fn ending(self) -> Result<(String, LastLine)> {
+        let last_line = self.lines.last_line();
+        Ok((self.lines.digest()?, last_line))
     }
 }
 
@@ -240,6 +246,17 @@ mod tests {
         assert_eq!(texts(continued_fields(b",2,1,4.5")), ["2", "1", "4.5", "", "", "", "", ""]);
         assert!(continued_fields(b"GRID    1").is_none() && continued_fields(b"  ").is_none());
         assert!(first_fields(b"DMIGX   A", "DMIG").is_none() && first_fields(b"DMI", "DMIG").is_none());
+    }
+
+    #[test]
+    fn entries_that_repeat_the_one_before_them_are_refused_by_line() {
+        let path = std::env::temp_dir().join(format!("supel-replicators-{}.bdf", std::process::id()));
+        std::fs::write(&path, "CORD2R,1\n=,2\nGRID,1,,0.,0.,0.,10\n=,*1,=,*.1,==\n=3\n").expect("a file");
+        let read = |name| Cards::open(&path, name).and_then(|mut cards| cards.advance()).map(|card| card.is_some());
+        let error = read("GRID").expect_err("a replicator").to_string();
+        assert!(error.contains("line 4") && error.contains("entries written out"), "{error}");
+        assert!(read("GRDSET").is_ok());
+        let _ = std::fs::remove_file(&path);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::banner::excerpt;
+use super::blocks::LastLine;
 use super::bulk_start::is_bulk;
 use super::file_start::FileStart;
 use super::inclusion::included_file;
@@ -23,12 +24,18 @@ pub(super) struct BulkLines<'a> {
     open: Vec<(usize, Lines<'a>)>,
     /// Digests of the files that were read to their ends, and their indices.
     digests: Vec<(usize, String)>,
+    last_line: LastLine,
 }
 
 impl<'a> BulkLines<'a> {
     /// Before the first line.
     pub(super) fn open(path: &'a Path) -> Result<Self> {
-        Ok(Self { files: vec![path.into()], open: vec![(0, Lines::open(path)?)], digests: Vec::new() })
+        Ok(Self {
+            files: vec![path.into()],
+            open: vec![(0, Lines::open(path)?)],
+            digests: Vec::new(),
+            last_line: LastLine::Terminated,
+        })
     }
 
     /// The line that was read last, without its end; nothing behind the last one.
@@ -59,10 +66,16 @@ impl<'a> BulkLines<'a> {
             } else if includes(lines.line()) {
                 self.include()?;
             } else {
+                self.last_line = if lines.is_open() { LastLine::Open } else { LastLine::Terminated };
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Whether the line that was read last is complete.
+    pub(super) fn last_line(&self) -> LastLine {
+        self.last_line
     }
 
     /// BLAKE3 of the deck; where it includes others, of their digests one below the other.

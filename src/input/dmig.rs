@@ -12,7 +12,6 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::assembled::complete;
-use super::blocks::LastLine;
 use super::bulk_cards::Cards;
 use super::bulk_lines::Place;
 use super::bulk_start::is_bulk;
@@ -102,7 +101,8 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
         Err(Error::MatrixUnread { path, format: FORMAT, place, found, expected })
     };
     if !matches!(head.kind, 1 | 2) {
-        return unread(format!("{} of type {}, a complex matrix", head.name, head.kind));
+        let what = if matches!(head.kind, 3 | 4) { ", a complex matrix" } else { "" };
+        return unread(format!("{} of type {}{what}", head.name, head.kind));
     }
     if !matches!(head.form, 1 | 2 | 6) {
         return unread(format!("{} of form {}", head.name, head.form));
@@ -143,7 +143,7 @@ fn read(source: &MatrixSource<'_>, head: &Head) -> Result<ReadMatrix> {
     if entries.is_empty() {
         return Err(wrong(&head.place, format!("{} without entries", head.name), "its columns"));
     }
-    let mut read = entries.into_matrix(source, declared, (cards.digest()?, LastLine::Terminated))?;
+    let mut read = entries.into_matrix(source, declared, cards.ending()?)?;
     if head.form == 6 {
         if source.triangle.is_none() {
             complete(&mut read.input)?;

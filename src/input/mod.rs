@@ -37,6 +37,7 @@ mod fortran;
 mod frd_modes;
 mod further_matrix;
 mod gathering;
+mod gzip;
 mod harwell_boeing;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;

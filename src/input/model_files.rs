@@ -19,7 +19,7 @@ use super::quantity_files::{QuantityRows, quantity_rows};
 use super::superelement_file::refuse_other;
 use super::turned_rows::{turned, turning};
 use super::{Cells, InputNote, MatrixInput, MatrixRole, empty_rows, formats, unit_mass};
-use crate::dofs::{DofMap, FileRows, Nodes};
+use crate::dofs::{DofMap, FileRows, Nodes, RoundedAxes};
 use crate::error::{Error, Result, Unnamed};
 use crate::job::{
     ConstraintsToGround, Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob,
@@ -44,6 +44,8 @@ pub struct Input {
     pub rows: FileRows,
     /// Rows of the files that were along axes of their own; absent where all were along those of the model.
     pub turning: Option<Turning>,
+    /// Those of these axes that look rounded, where there are some.
+    pub axes: Option<RoundedAxes>,
     /// Multipoint constraints on the rows that are left; absent where the job names none.
     pub constraints: Option<ConstraintRows>,
     /// Internal forces of a preloaded state, one for each row that is left, in the units of the file; absent where the job names none.
@@ -87,6 +89,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
     let layout = stiffness.layout;
     let turning = turning(model, (dofs.as_ref(), layout), said, allowance, (&mut digests, &mut notes))?;
+    let (turning, axes) = turning.unzip();
     let turning = turning.as_ref();
     stiffness = turned(stiffness, turning);
     let labels = labels.unwrap_or_else(|| dofs.as_ref().map_or_else(RowLabels::default, RowLabels::of_map));
@@ -107,8 +110,21 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let constraints = constraints.map(|constraints| constraints.renumbered(number));
     let internal_forces = forces.map(|forces| on_rows(forces, &rows, stiffness.matrix.rows())).transpose()?;
     refuse_other_superelements(model, (&stiffness, &mass), &digests)?;
-    let turning = turning.cloned();
-    Ok(Input { stiffness, mass, dofs, labels, nodes, rows, turning, constraints, internal_forces, digests, notes })
+    let (turning, axes) = (turning.cloned(), axes.flatten());
+    Ok(Input {
+        stiffness,
+        mass,
+        dofs,
+        labels,
+        nodes,
+        rows,
+        turning,
+        axes,
+        constraints,
+        internal_forces,
+        digests,
+        notes,
+    })
 }
 
 fn refuse_other_superelements(

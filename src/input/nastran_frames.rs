@@ -43,7 +43,7 @@ pub(super) fn grid_frames(path: &Path) -> Result<Option<NodeFrames>> {
         let system = systems.system(grid.cd, &grid.place)?;
         axes.insert(label, system.axes_at(systems.position(label, &grid.place)?));
     }
-    Ok(Some(NodeFrames { axes, of_axes: 0.0, place }))
+    Ok(Some(NodeFrames { axes, rounded: BTreeMap::new(), place }))
 }
 
 /// A grid point.

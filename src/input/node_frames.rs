@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use super::allowance::Allowance;
 use super::decimal::Decimal;
 use super::table::{Row, Table, is_node_column, open_first_line};
-use crate::dofs::{Axes, DofMap, spanned};
+use crate::dofs::{Axes, AxisDigits, DofMap, RoundedAxes, spanned};
 use crate::error::{Error, Result};
 use crate::sparse::Turning;
 
@@ -24,16 +24,14 @@ const ROWS_PER_CLAIM: usize = 1 << 8;
 const THIRD: f64 = 1e-3;
 /// How far a length may be from one for a direction to be that of an axis with all its digits.
 const WHOLE: f64 = 1e-14;
-/// Decimals from which a direction of about unit length is an axis that was rounded.
-const MIN_DECIMALS: i32 = 3;
 
 /// The axes of nodes, and where they are from.
 #[derive(Clone, Debug)]
 pub(super) struct NodeFrames {
     /// Axes of each node that has its own.
     pub(super) axes: BTreeMap<i64, Axes>,
-    /// What their components may be off by.
-    pub(super) of_axes: f64,
+    /// Those that look rounded, and to how many decimals.
+    pub(super) rounded: BTreeMap<i64, AxisDigits>,
     /// File and line of the first.
     pub(super) place: (PathBuf, u64),
 }
@@ -60,7 +58,13 @@ impl NodeFrames {
                 }
             }
         }
-        Ok((Turning::new(dofs.len(), blocks, self.of_axes), of_node.len()))
+        let off = self.rounded().map_or(0.0, |rounded| rounded.off_in_bars());
+        Ok((Turning::new(dofs.len(), blocks, off), of_node.len()))
+    }
+
+    /// The axes that look rounded; none where there are none.
+    pub(super) fn rounded(&self) -> Option<RoundedAxes> {
+        (!self.rounded.is_empty()).then(|| RoundedAxes { path: self.place.0.clone(), of_node: self.rounded.clone() })
     }
 
     fn lacking(&self, node: i64, rows: &[Option<u32>; 6]) -> Error {
@@ -83,7 +87,8 @@ pub(super) fn node_frames(path: &Path, allowance: &Allowance) -> Result<NodeFram
         *column = table.require(name, EXPECTED, |known| known == name)?;
     }
     let third: Option<Vec<usize>> = NAMES[6..].iter().map(|name| table.find(|known| known == *name)).collect();
-    let mut frames = NodeFrames { axes: BTreeMap::new(), of_axes: 0.0, place: (path.to_owned(), 1) };
+    let mut frames = NodeFrames { axes: BTreeMap::new(), rounded: BTreeMap::new(), place: (path.to_owned(), 1) };
+    let mut digits = TableDigits::default();
     let mut lines: BTreeMap<i64, u64> = BTreeMap::new();
     while let Some(row) = table.next_row()? {
         let (node, line) = (row.integer(label_column)?, row.line);
@@ -105,9 +110,10 @@ pub(super) fn node_frames(path: &Path, allowance: &Allowance) -> Result<NodeFram
                 return Err(wrong(format!("z along {z:?}, where x and y make it {:?}", axes[2])));
             }
         }
-        frames.of_axes = frames.of_axes.max(rounding(x)).max(rounding(y));
+        digits.take(node, line, [x, y]);
         frames.axes.insert(node, axes);
     }
+    frames.rounded = digits.rounded();
     if frames.axes.is_empty() {
         return Err(Error::NoData { path: path.to_owned(), expected: "rows of node and axes below the header" });
     }
@@ -118,13 +124,47 @@ fn vector(row: &Row<'_>, columns: &[usize]) -> Result<[f64; 3]> {
     Ok([row.number(columns[0])?, row.number(columns[1])?, row.number(columns[2])?])
 }
 
-/// What the components of a direction may be off by: half a unit of the last decimal, where its length is one up to as much. Other
-/// directions are as they are meant.
-fn rounding(direction: [f64; 3]) -> f64 {
+/// The decimals of a table of axes.
+#[derive(Default)]
+struct TableDigits {
+    /// Line of each node, and decimals of those of its directions that look rounded.
+    of_node: BTreeMap<i64, (u64, Option<i32>)>,
+    /// The most that a number of the table has.
+    most: i32,
+}
+
+impl TableDigits {
+    fn take(&mut self, node: i64, line: u64, directions: [[f64; 3]; 2]) {
+        let fewest = directions.into_iter().filter_map(rounded_to).min();
+        self.of_node.insert(node, (line, fewest));
+        self.most = directions.into_iter().map(decimals).fold(self.most, i32::max);
+    }
+
+    /// The nodes whose axes look rounded. A table of few decimals has them for all of its numbers: zeros and ones were rounded too.
+    fn rounded(&self) -> BTreeMap<i64, AxisDigits> {
+        let is_coarse =
+            (1..AxisDigits::ENOUGH).contains(&self.most) && self.of_node.values().any(|(_, of)| of.is_some());
+        let of_table = is_coarse.then_some(self.most);
+        let of = |(node, (line, own)): (&i64, &(u64, Option<i32>))| {
+            Some((*node, AxisDigits { line: *line, decimals: of_table.or(*own)? }))
+        };
+        self.of_node.iter().filter_map(of).collect()
+    }
+}
+
+/// The most decimals that a component of a direction has.
+fn decimals(direction: [f64; 3]) -> i32 {
+    let of = direction.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value).n_decimals());
+    of.max().unwrap_or(0)
+}
+
+/// The decimals that a direction of about unit length looks rounded to, none for other directions, which are as they are meant. Of a length
+/// that is one to its last bit it is told from few decimals alone.
+fn rounded_to(direction: [f64; 3]) -> Option<i32> {
     let off = (direction.iter().map(|value| value * value).sum::<f64>().sqrt() - 1.0).abs();
-    let decimals = direction.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value).n_decimals()).max();
-    let unit = 10f64.powi(-decimals.unwrap_or(0));
-    if off <= WHOLE || off > 2.0 * unit || decimals < Some(MIN_DECIMALS) { 0.0 } else { 0.5 * unit }
+    let decimals = decimals(direction);
+    let is_near = off <= 2.0 * 10f64.powi(-decimals) && (off > WHOLE || decimals < AxisDigits::ENOUGH);
+    (decimals > 0 && is_near).then_some(decimals)
 }
 
 #[cfg(test)]
@@ -132,10 +172,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn axes_of_few_digits_are_off_by_half_a_unit() {
-        assert_eq!(rounding([0.66667, 0.66667, -0.33333]), 0.5e-5);
-        for exact in [[1.0, 1.0, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 2.5], [0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0]] {
-            assert_eq!(rounding(exact), 0.0, "{exact:?}");
+    fn axes_of_few_digits_look_rounded() {
+        for (direction, expected) in [
+            ([0.66667, 0.66667, -0.33333], Some(5)),
+            ([0.71, 0.71, 0.0], Some(2)),
+            ([0.9, 0.5, 0.0], Some(1)),
+            ([0.6, 0.8, 0.0], Some(1)),
+            ([1.0, 1.0, 0.0], None),
+            ([0.0, 0.0, 2.5], None),
+            ([0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0], None),
+        ] {
+            assert_eq!(rounded_to(direction), expected, "{direction:?}");
         }
+    }
+
+    #[test]
+    fn zeros_and_ones_of_a_table_of_few_decimals_were_rounded_too() {
+        let mut digits = TableDigits::default();
+        digits.take(4, 2, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        assert!(digits.rounded().is_empty());
+        digits.take(7, 3, [[0.71, 0.71, 0.0], [-0.71, 0.71, 0.0]]);
+        let two = |line| AxisDigits { line, decimals: 2 };
+        assert_eq!(digits.rounded(), BTreeMap::from([(4, two(2)), (7, two(3))]));
+        digits.take(9, 4, [[0.66667, 0.66667, -0.33333], [-0.66667, 0.33333, 0.66667]]);
+        assert_eq!(digits.rounded(), BTreeMap::from([(7, two(3)), (9, AxisDigits { line: 4, decimals: 5 })]));
     }
 }

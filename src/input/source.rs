@@ -6,8 +6,8 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use bzip2::bufread::MultiBzDecoder;
-use flate2::bufread::MultiGzDecoder;
 
+use super::gzip::GzipMembers;
 use super::zstd::ZstdFrames;
 use crate::error::{Error, Result};
 use crate::regular_file;
@@ -65,7 +65,7 @@ const MARK: &[u8] = b"\xef\xbb\xbf";
 
 enum Stream {
     Plain(Box<BufReader<DigestReader>>),
-    Gzip(Box<MultiGzDecoder<BufReader<DigestReader>>>),
+    Gzip(Box<GzipMembers<BufReader<DigestReader>>>),
     Bzip2(Box<MultiBzDecoder<BufReader<DigestReader>>>),
     Zstd(Box<ZstdFrames<BufReader<DigestReader>>>),
 }
@@ -80,7 +80,7 @@ impl Source {
         let mut reader = BufReader::with_capacity(READ_AHEAD, digest);
         let stream = match Packing::of(reader.fill_buf().map_err(failed)?) {
             None => Stream::Plain(Box::new(reader)),
-            Some(Packing::Gzip) => Stream::Gzip(Box::new(MultiGzDecoder::new(reader))),
+            Some(Packing::Gzip) => Stream::Gzip(Box::new(GzipMembers::new(reader))),
             Some(Packing::Bzip2) => Stream::Bzip2(Box::new(MultiBzDecoder::new(reader))),
             Some(Packing::Zstd) => {
                 // A window is memory that a header asks for: no more than what may become of the file.

@@ -9,13 +9,14 @@ use super::member::split_member;
 use super::nastran_frames::grid_frames;
 use super::node_frames::{NodeFrames, node_frames};
 use super::{FurtherMatrix, InputNote, LoadColumn, MatrixInput, ModeColumns, QuantityRows};
-use crate::dofs::DofMap;
+use crate::dofs::{DofMap, RoundedAxes};
 use crate::error::{Error, Result};
 use crate::job::{Layout, ModelJob};
 use crate::regular_file::{digest, unchanged};
 use crate::sparse::{Turned, Turning};
 
-/// Which rows of a model are along axes of their own: those of the file of the job, otherwise those that map or deck say.
+/// Which rows of a model are along axes of their own: those of the file of the job, otherwise those that map or deck say. With them those
+/// axes that look rounded.
 ///
 /// # Errors
 /// What reading the file refuses; [`Error::FrameRows`]; [`Error::FrameNodes`]; [`Error::DeckUnsupported`] for a deck with parts.
@@ -25,7 +26,7 @@ pub(super) fn turning(
     said: SaidFrames,
     allowance: &Allowance,
     (digests, notes): (&mut Digests, &mut Vec<InputNote>),
-) -> Result<Option<Turning>> {
+) -> Result<Option<(Turning, Option<RoundedAxes>)>> {
     let frames = match &model.frames {
         Some(path) => {
             let (frames, of_frames) = unchanged(path, || Ok((node_frames(path, allowance)?, digest(path)?)))?;
@@ -37,8 +38,9 @@ pub(super) fn turning(
     let Some(frames) = frames else { return Ok(None) };
     let turned = dofs.map(|dofs| frames.turning(dofs)).transpose()?;
     if let Some((turning, n_nodes)) = turned.filter(|(_, n_nodes)| *n_nodes > 0) {
+        let rounded = frames.rounded();
         notes.push(InputNote::Turned { path: frames.place.0, n_nodes });
-        return Ok(Some(turning));
+        return Ok(Some((turning, rounded)));
     }
     // A deck may have nodes without rows; a table of none of the model is that of another one.
     match &model.frames {

@@ -1,6 +1,6 @@
 //! What the checks of a model found that is not an error: remarks and warnings, one sentence each.
 
-use crate::dofs::{Direction, RowNames};
+use crate::dofs::{AxisDigits, Direction, RoundedAxes, RowNames};
 use crate::number::{counted, quantity};
 use crate::sparse::Rounding;
 
@@ -75,6 +75,17 @@ pub enum Finding {
         node: i64,
         /// The directions it lacks.
         lacks: Vec<Direction>,
+    },
+    /// Axes of nodes that were given to few digits, which the error bars hold.
+    FrameDigits {
+        /// The table.
+        file: String,
+        /// The node with the fewest, and its line.
+        node: i64,
+        /// Line, from 1.
+        line: u64,
+        /// Their decimals.
+        decimals: i32,
     },
     /// Supports touch nearly all rows, so that the others cannot confirm the coordinates.
     CoordinatesUntested {
@@ -159,6 +170,13 @@ impl Finding {
         Some(Self::FreeParticles { rows, first })
     }
 
+    /// Axes of nodes whose digits the error bars hold, where there are some.
+    pub(super) fn frame_digits(axes: &RoundedAxes) -> Option<Self> {
+        let (node, AxisDigits { line, decimals }) = axes.coarsest_in_bars()?;
+        let file = axes.path.file_name().unwrap_or(axes.path.as_os_str()).to_string_lossy().into_owned();
+        Some(Self::FrameDigits { file, node, line, decimals })
+    }
+
     /// How many rows it says to be free particles.
     pub fn n_free_particles(&self) -> usize {
         match self {
@@ -190,6 +208,7 @@ impl Finding {
             Self::CoordinatesUntested { .. } | Self::MotionsUncounted => Some("W-COORD-UNTESTED"),
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
+            Self::FrameDigits { .. } => Some("W-FRAME-DIGITS"),
             Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
             Self::MassFar { .. } => Some("W-MASS-FAR"),
             Self::ConstraintGround { .. } => Some("W-CONSTRAINT-GROUND"),
@@ -230,6 +249,7 @@ impl std::fmt::Display for Finding {
             Self::CoordinatesUntested { n_touched, n_rows, largest } => {
                 f.write_str(&coordinates_untested(*n_touched, *n_rows, *largest))
             }
+            Self::FrameDigits { file, node, line, decimals } => f.write_str(&frame_digits(file, [*node, *line as i64], *decimals)),
             Self::MotionsUncounted => f.write_str(
                 "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \
                  check that rows and map are in one order",
@@ -296,6 +316,15 @@ fn stiff_rows(n_rows: usize, first: &str, ratio: f64) -> String {
         "{} a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties that hold or tie \
          dofs; they take digits from what they touch, leave held dofs out of both matrices",
         counted(n_rows, "row has", "rows have")
+    )
+}
+
+fn frame_digits(file: &str, [node, line]: [i64; 2], decimals: i32) -> String {
+    format!(
+        "{file}:{line}: the axes of node {node} are given to {decimals} decimals, which leave an angle of up to {:.0e} rad between the rows and \
+         the axes of the model: error bars hold this, and they are wider than the matrices alone would make them; write the axes \
+         with all their digits",
+        10f64.powi(-decimals)
     )
 }
 

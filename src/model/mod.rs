@@ -20,7 +20,7 @@ mod weight;
 use std::collections::HashSet;
 
 use crate::cache::Cache;
-use crate::dofs::{Dof, DofMap, FileRows, Nodes, RowNames};
+use crate::dofs::{Dof, DofMap, FileRows, Nodes, RoundedAxes, RowNames};
 use crate::error::{Error, Result};
 use crate::input::{ConstraintRows, Input, MatrixInput};
 use crate::sparse::{Leading, Precision, Rounding, SparseMatrix, diagonal};
@@ -53,6 +53,8 @@ pub struct Model {
     pub nodes: Option<Nodes>,
     /// Which rows of the files its rows are.
     pub rows: FileRows,
+    /// Axes of nodes that rows were turned from and that look rounded, where there are some.
+    pub axes: Option<RoundedAxes>,
     /// Multipoint constraints on its rows, where there are some.
     pub constraints: Option<ConstraintRows>,
     /// Internal forces of a preloaded state / 2^a, one for each row; absent where K is that of an unloaded one.
@@ -116,7 +118,7 @@ impl Model {
     /// If K and M differ in size, which reading has ruled out.
     pub fn new(input: Input) -> Result<Self> {
         refuse_same(&input.stiffness, &input.mass)?;
-        let mut findings = Vec::new();
+        let mut findings: Vec<Finding> = input.axes.as_ref().and_then(Finding::frame_digits).into_iter().collect();
         let mut read = [&input.stiffness, &input.mass].map(rounding_of);
         let (dofs, rows) = (input.dofs, input.rows);
         let names = RowNames { rows: &rows, dofs: dofs.as_deref() };
@@ -160,6 +162,7 @@ impl Model {
             dofs,
             nodes,
             rows,
+            axes: input.axes,
             constraints,
             internal_forces,
             bodies,
@@ -260,8 +263,8 @@ fn symmetrised(name: &'static str, input: MatrixInput, names: RowNames<'_>) -> R
             names.number(asymmetry.worst.1),
             names.bracketed(asymmetry.worst.1)
         );
-        let Asymmetry { of_rows: asymmetry, unpaired, .. } = asymmetry;
-        return Err(Error::Unsymmetric { matrix: name, asymmetry, place, unpaired });
+        let Asymmetry { of_rows: asymmetry, of_largest, unpaired, .. } = asymmetry;
+        return Err(Error::Unsymmetric { matrix: name, asymmetry, of_largest, place, unpaired });
     }
     let Asymmetry { of_largest, of_rows, .. } = asymmetry;
     Ok((matrix, (of_rows > 0.0).then_some(Finding::Symmetrised { matrix: name, of_largest, of_rows })))

@@ -310,6 +310,7 @@ mod tests {
             constraints: None,
             internal_forces: None,
             turning: None,
+            axes: None,
             digests: Default::default(),
             notes: Vec::new(),
         };

@@ -187,6 +187,19 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     let uncertain: Vec<String> = of_free.chain(of_modes).flatten().collect();
     let first = uncertain.first()?;
     let [stiffness, mass] = &results.input.matrices;
+    if is_named(results, "W-FRAME-DIGITS") {
+        return None;
+    }
+    if is_named(results, "W-UNSYMMETRIC") {
+        return Some(Warning {
+            code: "W-DATA-PRECISION",
+            message: format!(
+                "the triangles of a matrix differ (W-UNSYMMETRIC), and which of them is right leaves {} less certain than {WANTED:.0e}, \
+                 {first}; correct the matrix, or say which triangle holds with model.symmetric",
+                counted(uncertain.len(), "frequency", "frequencies")
+            ),
+        });
+    }
     let advice = if stiffness.digits.are_all() && mass.digits.are_all() {
         "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them out"
     } else {

@@ -13,6 +13,8 @@ pub struct Follower {
     pub row: usize,
     /// Node and direction, where a map tells them.
     pub dof: Option<Dof>,
+    /// Whether it is at rest.
+    pub is_held: bool,
     /// K_ii of the model, in scaled units.
     pub stiffness: f64,
 }
@@ -33,5 +35,11 @@ pub(super) fn followers(model: &Model, transformation: &Transformation) -> Vec<F
     }
     let stiffness = diagonal(&model.stiffness);
     let dof = |row: usize| model.dofs.as_ref().and_then(|dofs| dofs[row]);
-    rows.into_iter().map(|row| Follower { row, dof: dof(row), stiffness: stiffness[row] }).collect()
+    let is_held = |row: usize| match &transformation.rows[row] {
+        TransformationRow::Held => true,
+        TransformationRow::Tied(terms) => terms.is_empty(),
+        TransformationRow::Dof(_) => false,
+    };
+    let of = |row: usize| Follower { row, dof: dof(row), is_held: is_held(row), stiffness: stiffness[row] };
+    rows.into_iter().map(of).collect()
 }

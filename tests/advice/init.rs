@@ -4,7 +4,7 @@ use std::path::Path;
 
 use supel::cli::ExitCode;
 use supel::job::{Coupling, Job, Method, ModeSelection, NodeSelection, Region};
-use supel_models::transform::{rounded, supported};
+use supel_models::transform::{in_local_frames, rounded, supported};
 use supel_models::{Material, brick};
 use supel_testing::place::{Ended, Place, steel_brick, supel};
 
@@ -152,6 +152,34 @@ fn faces_and_groups_with_held_nodes() {
     assert!(text.contains("group ROOT: 9 nodes") && text.contains("1 node of it is held"), "{text}");
     let _ = std::fs::remove_file(place.path("proposed.toml"));
     reduced(&place, files);
+}
+
+/// What the flags say of the rows is in the job: axes of nodes, the memory.
+#[test]
+fn axes_of_nodes_and_memory_are_in_the_job() {
+    const TURNED: [[f64; 3]; 3] = [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
+    let place = Place::with(&in_local_frames(&steel_brick(), &TURNED, |node| node == 7));
+    place.write("frames.csv", b"node,x1,x2,x3,y1,y2,y3\n7,3,4,0,-4,3,0\n");
+    let flags = format!("{ALL} --frames frames.csv --memory-gib 3");
+    let (job, text) = proposed(&place, &flags);
+    assert!(job.model.frames.is_some() && job.run.memory_gib == Some(3.0), "{text}");
+    reduced(&place, &flags);
+}
+
+/// A node that a constraint holds is held: no face with it is an interface.
+#[test]
+fn faces_with_a_node_that_a_constraint_holds() {
+    let model = steel_brick();
+    let place = Place::with(&model);
+    let row = model.dofs.iter().position(|dof| *dof == (model.labels[model.labels.len() - 1], 0)).expect("a row");
+    let entry = format!("%%MatrixMarket matrix coordinate real general\n1 {} 1\n1 {} 1\n", model.n, row + 1);
+    place.write("G.mtx", entry.as_bytes());
+    let flags = format!("{ALL} --constraints G.mtx --constraints-to-ground accept");
+    let (job, text) = proposed(&place, &flags);
+    let names: Vec<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    assert_eq!(names, ["minus-x"], "{text}");
+    assert!(text.contains("of the held component"), "{text}");
+    reduced(&place, &flags);
 }
 
 /// Nodes and sets of a model as a deck.

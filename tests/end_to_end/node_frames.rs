@@ -230,6 +230,110 @@ fn few_digits_of_matrices_and_of_axes() {
     }
 }
 
+/// Axes turned about a line that is along no axis, by an angle.
+fn turned_by(angle: f64) -> Axes {
+    let ([x, y, z], (s, c)) = ([2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0], angle.sin_cos());
+    let d = 1.0 - c;
+    [
+        [c + d * x * x, d * x * y + s * z, d * x * z - s * y],
+        [d * x * y - s * z, c + d * y * y, d * y * z + s * x],
+        [d * x * z + s * y, d * y * z - s * x, c + d * z * z],
+    ]
+}
+
+/// A brick with each of some nodes along axes of its own, and the table of these axes in a form.
+fn each_in_its_own(nodes: &[(i64, Axes)], form: impl Fn(f64) -> String) -> (Place, Vec<String>) {
+    let mut model = steel_brick();
+    let mut table = "node,x1,x2,x3,y1,y2,y3\n".to_owned();
+    for (node, axes) in nodes {
+        model = in_local_frames(&model, axes, |other| other == *node);
+        let row: Vec<String> = axes[..2].iter().flatten().map(|value| form(*value)).collect();
+        table += &format!("{node},{}\n", row.join(","));
+    }
+    let place = Place::with(&model);
+    place.write("frames.csv", table.as_bytes());
+    let mut flags = place.model_flags();
+    flags.extend(["--frames".to_owned(), place.text("frames.csv")]);
+    (place, flags)
+}
+
+const FREE: &str = "--interface hub=5,15,45 --method craig-bampton --modes 3";
+
+/// The table is at fault where its decimals leave more open than K does: few of the nodes, most of them, or all of them alike.
+#[test]
+fn axes_of_few_decimals_are_refused_by_table_and_node() {
+    let one = vec![(15, turned_by(0.7))];
+    let most: Vec<(i64, Axes)> =
+        (1..=45).filter(|node| node % 3 < 2).map(|node| (node, turned_by(node as f64))).collect();
+    let about_z: Axes = {
+        let (s, c) = 30f64.to_radians().sin_cos();
+        [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
+    };
+    let alike: Vec<(i64, Axes)> = (1..=45).map(|node| (node, about_z)).collect();
+    for nodes in [&one, &most, &alike] {
+        for decimals in 1..=4 {
+            let (place, flags) = each_in_its_own(nodes, |value| format!("{value:.decimals$}"));
+            let ended = place.reduce(&flags, FREE).expect(ExitCode::InputData);
+            // Zeros at the ends of numbers tell nothing: half is 0.5 in however many decimals.
+            let shown = if nodes.len() == 45 { decimals.min(3) } else { decimals };
+            let expected = ["E-FRAME-DIGITS".to_owned(), "frames.csv:".to_owned(), format!("have {shown} decimal")];
+            for expected in expected {
+                assert!(ended.err.contains(&expected), "{} nodes, {decimals}: {}", nodes.len(), ended.err);
+            }
+        }
+        let (place, flags) = each_in_its_own(nodes, |value| format!("{value:e}"));
+        let ended = place.reduce(&flags, FREE).expect(ExitCode::Done);
+        assert!(!ended.out.contains("W-GROUNDED") && !ended.out.contains("W-FRAME"), "{}", ended.out);
+    }
+}
+
+/// Directions of few decimals may be exact, and K tells.
+#[test]
+fn axes_that_few_decimals_tell_exactly_are_taken() {
+    let nodes: Vec<(i64, Axes)> = (1..=45)
+        .filter(|node| node % 2 == 0)
+        .map(|node| {
+            (node, {
+                let h = 0.5f64.sqrt();
+                [[h, h, 0.0], [-h, h, 0.0], [0.0, 0.0, 1.0]]
+            })
+        })
+        .collect();
+    for decimals in [1, 2, 4] {
+        let (place, flags) = each_in_its_own(&nodes, |value| format!("{value:.decimals$}"));
+        let ended = place.reduce(&flags, FREE).expect(ExitCode::Done);
+        assert!(!ended.out.contains("W-GROUNDED") && !ended.out.contains("W-FRAME"), "{}", ended.out);
+    }
+}
+
+/// Error bars hold what six decimals leave open, and the warning names the table.
+#[test]
+fn the_digits_of_axes_are_named_where_error_bars_hold_them() {
+    let nodes: Vec<(i64, Axes)> = (1..=20).map(|node| (node, turned_by(node as f64))).collect();
+    let (place, flags) = each_in_its_own(&nodes, |value| format!("{value:.6}"));
+    place.reduce(&flags, FREE).expect(ExitCode::Done);
+    let said = place.report("x.report.json").to_string();
+    assert!(
+        said.contains("W-FRAME-DIGITS") && said.contains("frames.csv:2: the axes of node 1 are given to 6 decimals"),
+        "{said}"
+    );
+    assert!(!said.contains("W-DATA-PRECISION"), "{said}");
+}
+
+/// Axes with all their digits that are slightly off at most nodes look like soft supports of a body that has six motions all the same.
+#[test]
+fn axes_that_are_off_at_most_nodes_are_no_supports() {
+    let most: Vec<(i64, Axes)> =
+        (1..=45).filter(|node| node % 3 < 2).map(|node| (node, turned_by(node as f64))).collect();
+    let (place, flags) = each_in_its_own(&most, |value| format!("{value:e}"));
+    let off = |node: &i64| turned_by(*node as f64 * (1.0 + 4e-3 / 45.0));
+    let row = |axes: Axes| axes[..2].iter().flatten().map(|value| format!(",{value:e}")).collect::<String>();
+    let rows: String = most.iter().map(|(node, _)| format!("{node}{}\n", row(off(node)))).collect();
+    place.write("frames.csv", ("node,x1,x2,x3,y1,y2,y3\n".to_owned() + &rows).as_bytes());
+    let ended = place.reduce(&flags, FREE).expect(ExitCode::InputData);
+    assert!(ended.err.contains("E-COORD") && ended.err.contains("6 motions without energy"), "{}", ended.err);
+}
+
 #[test]
 fn tables_that_are_no_axes_are_refused_by_line_and_node() {
     let turned = Turned { sound: steel_brick(), nodes: vec![7] };

@@ -41,6 +41,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         constraints: None,
         internal_forces: None,
         turning: None,
+        axes: None,
         digests: Default::default(),
         notes: Vec::new(),
     };

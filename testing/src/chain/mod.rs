@@ -54,6 +54,7 @@ pub fn input(model: &models::Model) -> Input {
         constraints: None,
         internal_forces: None,
         turning: None,
+        axes: None,
         digests: Default::default(),
         notes: Vec::new(),
     }

@@ -57,6 +57,42 @@ fn nodes_elements_and_sets() {
     assert!(!nodes.groups.contains_key("none"), "no node has the label");
 }
 
+/// Sets and surfaces of an assembly have members in several instances and of its own; sets of a part are told apart from them.
+#[test]
+fn sets_of_an_assembly_reach_over_its_instances() {
+    let part = |name: &str, first: i64, sets: &str| {
+        let node = |at: i64, point: &str| format!("{}, {point}\n", first + at);
+        let nodes = [node(0, "0, 0, 0"), node(1, "1, 0, 0"), node(2, "0, 1, 0"), node(3, "0, 0, 1")].concat();
+        let corners = (first..first + 4).map(|label| label.to_string()).collect::<Vec<_>>().join(", ");
+        format!("*PART, NAME={name}\n*NODE\n{nodes}*ELEMENT, TYPE=C3D4\n{first}, {corners}\n{sets}*END PART\n")
+    };
+    let deck = part("P", 1, "*NSET, NSET=HUB\n1, 2\n")
+        + &part("Q", 11, "*NSET, NSET=ONLYQ\n11, 12\n")
+        + "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n*END INSTANCE\n*INSTANCE, NAME=Q-1, PART=Q\n*END INSTANCE\n\
+           *NODE\n101, 5, 5, 5\n\
+           *NSET, NSET=Both, INSTANCE=P-1\n1,\n*NSET, NSET=BOTH, INSTANCE=Q-1\n11,\n\
+           *NSET, NSET=MIXED\nP-1.3, Q-1.14, 101\n*NSET, NSET=OFQ\nQ-1.ONLYQ, 101\n*NSET, NSET=OFBOTH\nMIXED, BOTH\n\
+           *NSET, NSET=HUB, INSTANCE=P-1\n3,\n\
+           *ELSET, ELSET=_S_S1, INTERNAL, INSTANCE=P-1\n1,\n*ELSET, ELSET=_S_S1, INTERNAL, INSTANCE=Q-1\n11,\n\
+           *NSET, NSET=ALL, ELSET=_S_S1\n*SURFACE, NAME=S\n_S_S1, S1\n*SURFACE, NAME=T\nQ-1.11, S1\n\
+           *SURFACE, NAME=U, COMBINE=UNION\nS, T\n*END ASSEMBLY\n";
+    let nodes = read_text("assembly.inp", deck).expect("a deck");
+    for (name, expected) in [
+        ("Both", &[1i64, 11][..]),
+        ("MIXED", &[3, 14, 101]),
+        ("OFQ", &[11, 12, 101]),
+        ("OFBOTH", &[1, 3, 11, 14, 101]),
+        ("HUB", &[3]),
+        ("P-1.HUB", &[1, 2]),
+        ("ALL", &[1, 2, 3, 4, 11, 12, 13, 14]),
+        ("S", &[1, 2, 3, 11, 12, 13]),
+        ("T", &[11, 12, 13]),
+        ("U", &[1, 2, 3, 11, 12, 13]),
+    ] {
+        assert_eq!(group(&nodes, name), expected, "{name}");
+    }
+}
+
 #[test]
 fn surfaces_are_groups_of_the_nodes_on_their_faces() {
     let nodes = bricks_with(
@@ -70,7 +106,7 @@ fn surfaces_are_groups_of_the_nodes_on_their_faces() {
     assert_eq!(group(&nodes, "POINTS"), [1, 2, 3]);
     assert_eq!(group(&nodes, "SKIN").len(), 12, "every node of two bricks is outside");
     assert_eq!(group(&nodes, "N (surface)"), [11, 12, 13, 14]);
-    assert!(!nodes.groups.contains_key("UNION"));
+    assert_eq!(group(&nodes, "UNION"), [1, 2, 5, 6, 11, 12, 13, 14]);
 
     // A brick of twenty nodes has eight on each face.
     let numbered = (1..=20).map(|label| format!("{label}, {label}, 0, 0\n")).collect::<String>();

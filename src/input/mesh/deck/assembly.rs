@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use super::keyword::Keyword;
 use super::lines::DeckLines;
-use super::scope::{Added, Face, Scope, SetLine};
-use super::sections::{SetKind, data_line, member, numbers, wrong_line};
+use super::scope::{Added, Face, Scope, SetKind, SetLine, SurfaceLine, of_assembly};
+use super::sections::{data_line, member, numbers, wrong_line};
 use super::transforms::Transform;
 use crate::error::Result;
 use crate::input::allowance::Claim;
@@ -61,51 +61,60 @@ impl Scopes {
         Ok(())
     }
 
-    /// Hands lines of the assembly that name labels or sets of an instance down to that instance: `Part-1.HUB`, `Part-1.17`, or a set that
-    /// the assembly has for this instance.
+    /// Whether a keyword of the assembly says of which instance its lines are.
+    pub(super) fn names_instance(&self, keyword: &Keyword) -> bool {
+        self.inside == Inside::Outer && keyword.value("INSTANCE").is_some()
+    }
+
+    /// Hands lines of the assembly that name labels, sets or surfaces of instances down to these: `Part-1.HUB`, `Part-1.17`, or a set of
+    /// the assembly that has members there. A line of several is handed to each, and stays where the assembly has a part of it itself.
     pub(super) fn hand_down(&mut self) {
         let Self { outer, instances, .. } = self;
         if instances.is_empty() {
             return;
         }
-        let [of_nodes, of_elements] = [&outer.node_sets, &outer.element_sets].map(|lines| names_of(lines));
-        let mut kept = Vec::new();
-        for mut line in std::mem::take(&mut outer.surfaces) {
-            let (own, kind) = match line.face {
-                Face::Nodes => (&of_nodes, SetKind::Nodes),
-                _ => (&of_elements, SetKind::Elements),
-            };
-            match owner(&line.of, own, instances, kind) {
-                Some((at, of)) => {
-                    line.of = of;
-                    instances[at].surfaces.push(line);
+        // Sets of nodes may be those of sets of elements, surfaces those of either.
+        for kind in [SetKind::Elements, SetKind::Nodes] {
+            let mut kept: Vec<SetLine> = Vec::new();
+            for line in std::mem::take(outer.sets_mut(kind)) {
+                let named = match line.added {
+                    Added::NodesOf(_) => Named::Set(SetKind::Elements),
+                    _ => Named::Set(kind),
+                };
+                let own = match named {
+                    Named::Set(SetKind::Elements) if kind == SetKind::Nodes => names_of(&outer.element_sets),
+                    _ => names_of(&kept),
+                };
+                let (stays, owners) = owners(&line.added, &own, instances, named);
+                for (at, added) in owners {
+                    let set = of_assembly(&line.set);
+                    instances[at].sets_mut(kind).push(SetLine { set, added, place: line.place });
                 }
-                None => kept.push(line),
+                if stays {
+                    kept.push(line);
+                }
+            }
+            *outer.sets_mut(kind) = kept;
+        }
+        let of_sets = [SetKind::Nodes, SetKind::Elements].map(|kind| names_of(outer.sets(kind)));
+        let mut kept: Vec<SurfaceLine> = Vec::new();
+        for line in std::mem::take(&mut outer.surfaces) {
+            let of_surfaces: HashSet<String> = kept.iter().map(|line| line.surface.to_ascii_uppercase()).collect();
+            let (own, named) = match line.face {
+                Face::Nodes => (&of_sets[0], Named::Set(SetKind::Nodes)),
+                Face::OfSurface => (&of_surfaces, Named::Surface),
+                Face::Labelled(_) | Face::Free => (&of_sets[1], Named::Set(SetKind::Elements)),
+            };
+            let (stays, owners) = owners(&line.of, own, instances, named);
+            for (at, of) in owners {
+                let surface = of_assembly(&line.surface);
+                instances[at].surfaces.push(SurfaceLine { surface, of, ..line.clone() });
+            }
+            if stays {
+                kept.push(line);
             }
         }
         outer.surfaces = kept;
-        for kind in [SetKind::Nodes, SetKind::Elements] {
-            let (lines, own) = match kind {
-                SetKind::Nodes => (&mut outer.node_sets, &of_nodes),
-                SetKind::Elements => (&mut outer.element_sets, &of_elements),
-            };
-            let mut kept = Vec::new();
-            for mut line in std::mem::take(lines) {
-                match owner(&line.added, own, instances, kind) {
-                    Some((at, added)) => {
-                        line.added = added;
-                        let of_instance = &mut instances[at];
-                        let lines = match kind {
-                            SetKind::Nodes => &mut of_instance.node_sets,
-                            SetKind::Elements => &mut of_instance.element_sets,
-                        };
-                        lines.push(line);
-                    }
-                    None => kept.push(line),
-                }
-            }
-            *lines = kept;
-        }
     }
 
     pub(super) fn start_part(&mut self, keyword: &Keyword, lines: &DeckLines) -> Result<()> {
@@ -171,27 +180,50 @@ fn names_of(lines: &[SetLine]) -> HashSet<String> {
     lines.iter().map(|line| line.set.to_ascii_uppercase()).collect()
 }
 
-/// The instance whose label or set is named, and what it is called there; none where it is one of the assembly.
-fn owner(added: &Added, own: &HashSet<String>, instances: &[Scope], kind: SetKind) -> Option<(usize, Added)> {
-    let Added::Set(name) = added else { return None };
-    if own.contains(&name.to_ascii_uppercase()) {
-        return None;
+/// What a line names.
+#[derive(Clone, Copy)]
+enum Named {
+    /// Sets, or labels of what they list.
+    Set(SetKind),
+    Surface,
+}
+
+impl Named {
+    /// Whether a scope has something of this name.
+    fn is_in(self, scope: &Scope, name: &str) -> bool {
+        match self {
+            Self::Set(kind) => scope.sets(kind).iter().any(|line| line.set.eq_ignore_ascii_case(name)),
+            Self::Surface => scope.surfaces.iter().any(|line| line.surface.eq_ignore_ascii_case(name)),
+        }
     }
-    if let Some((instance, rest)) = name.rsplit_once('.')
-        && let Some(at) = instances.iter().position(|scope| is_called(scope, instance))
-    {
-        return Some((at, member(rest)));
-    }
-    let has = |scope: &Scope| {
-        let lines = match kind {
-            SetKind::Nodes => &scope.node_sets,
-            SetKind::Elements => &scope.element_sets,
-        };
-        lines.iter().any(|line| line.set.eq_ignore_ascii_case(name))
+}
+
+/// Whether a line stays in the assembly, and the instances that it is of, with what it adds there. A name without an instance is one of the
+/// assembly; where that has none, one of the only instance that has it.
+fn owners(added: &Added, own: &HashSet<String>, instances: &[Scope], named: Named) -> (bool, Vec<(usize, Added)>) {
+    let (Added::Set(name) | Added::NodesOf(name)) = added else { return (true, Vec::new()) };
+    let renamed = |name: String| match added {
+        Added::NodesOf(_) => Added::NodesOf(name),
+        _ => Added::Set(name),
     };
-    let mut with = (0..instances.len()).filter(|at| has(&instances[*at]));
-    let only = with.next().filter(|_| with.next().is_none())?;
-    Some((only, added.clone()))
+    let dotted = name
+        .rsplit_once('.')
+        .and_then(|(instance, rest)| Some((instances.iter().position(|scope| is_called(scope, instance))?, rest)));
+    let is_own = own.contains(&name.to_ascii_uppercase());
+    if let Some((at, rest)) = dotted.filter(|_| !is_own) {
+        let added = if matches!(added, Added::NodesOf(_)) { renamed(rest.to_owned()) } else { member(rest) };
+        return (false, vec![(at, added)]);
+    }
+    let of_instances = of_assembly(name);
+    let with: Vec<usize> = (0..instances.len()).filter(|at| named.is_in(&instances[*at], &of_instances)).collect();
+    if is_own || !with.is_empty() {
+        return (is_own, with.into_iter().map(|at| (at, renamed(of_instances.clone()))).collect());
+    }
+    let mut with = (0..instances.len()).filter(|at| named.is_in(&instances[*at], name));
+    match (with.next(), with.next()) {
+        (Some(only), None) => (false, vec![(only, added.clone())]),
+        _ => (true, Vec::new()),
+    }
 }
 
 fn is_called(scope: &Scope, name: &str) -> bool {

@@ -7,8 +7,8 @@ use super::assembly::Scopes;
 use super::keyword::Keyword;
 use super::lines::{DeckLines, included_by, is_keyword};
 use super::resolved::Resolved;
-use super::scope::{NodeList, Scope};
-use super::sections::{self, SetKind};
+use super::scope::{NodeList, Scope, SetKind, name_in_assembly, of_assembly};
+use super::sections;
 use super::transforms;
 use crate::error::{Error, Result};
 use crate::input::Allowance;
@@ -67,14 +67,8 @@ fn section(lines: &mut DeckLines, keyword: &Keyword, scopes: &mut Scopes, claim:
     match keyword.name.as_str() {
         "NODE" => sections::nodes(lines, keyword, scopes.of(keyword, lines)?, claim),
         "ELEMENT" => sections::elements(lines, keyword, scopes.of(keyword, lines)?, claim),
-        "NSET" => {
-            let scope = scopes.of(keyword, lines)?;
-            sections::set(lines, keyword, (SetKind::Nodes, scope), claim)
-        }
-        "ELSET" => {
-            let scope = scopes.of(keyword, lines)?;
-            sections::set(lines, keyword, (SetKind::Elements, scope), claim)
-        }
+        "NSET" => set(lines, keyword, (SetKind::Nodes, scopes), claim),
+        "ELSET" => set(lines, keyword, (SetKind::Elements, scopes), claim),
         "SURFACE" => sections::surface(lines, keyword, scopes.of(keyword, lines)?, claim),
         "PART" => scopes.start_part(keyword, lines),
         "INSTANCE" => scopes.start_instance(lines, keyword, claim),
@@ -90,6 +84,23 @@ fn section(lines: &mut DeckLines, keyword: &Keyword, scopes: &mut Scopes, claim:
         // The lines below other keywords say nothing of the mesh.
         _ => Ok(()),
     }
+}
+
+/// `*NSET` and `*ELSET`; what the assembly has of an instance has a name there that no set of the part has.
+fn set(
+    lines: &mut DeckLines,
+    keyword: &Keyword,
+    (kind, scopes): (SetKind, &mut Scopes),
+    claim: &Claim<'_>,
+) -> Result<()> {
+    let is_of_assembly = scopes.names_instance(keyword);
+    let scope = scopes.of(keyword, lines)?;
+    let first = scope.sets(kind).len();
+    sections::set(lines, keyword, (kind, &mut *scope), claim)?;
+    if is_of_assembly {
+        scope.sets_mut(kind)[first..].iter_mut().for_each(|line| line.set = of_assembly(&line.set));
+    }
+    Ok(())
 }
 
 /// The mesh of all instances and of what stands outside of them.
@@ -111,29 +122,54 @@ fn merged(lines: &DeckLines, scopes: &Scopes, claim: &Claim<'_>) -> Result<CellM
     let mut mesh = CellMesh::default();
     let mut named: [BTreeMap<String, Vec<usize>>; 3] = Default::default();
     let mut n_named: BTreeMap<String, usize> = BTreeMap::new();
+    let mut is_of_assembly: BTreeSet<String> = BTreeSet::new();
     let mut resolved = Vec::new();
     for (at, scope) in all.iter().enumerate() {
         let end = first_of_scope.get(at + 1).map_or(nodes.labels.len(), |first| *first as usize);
         let first = first_of_scope[at];
         let of_scope = Resolved::new(lines, scope, (&nodes.labels[first as usize..end], first), &mut mesh)?;
-        let names: BTreeSet<&str> = of_scope.names().collect();
-        names.into_iter().for_each(|name| *n_named.entry(name.to_owned()).or_default() += 1);
+        let names = of_scope.names().filter(|name| scope.instance.is_some() && name_in_assembly(name).is_none());
+        let names: BTreeSet<String> = names.map(str::to_ascii_uppercase).collect();
+        names.into_iter().for_each(|name| *n_named.entry(name).or_default() += 1);
+        let of_assembly = of_scope.names().filter_map(|name| match scope.instance {
+            Some(_) => name_in_assembly(name),
+            None => Some(name),
+        });
+        is_of_assembly.extend(of_assembly.map(str::to_ascii_uppercase));
         resolved.push((scope.instance.as_deref(), of_scope));
     }
+    // Sets of one name in several instances, or in one and in the assembly, are told apart by the instance.
+    let is_alone = |name: &str| {
+        let name = name.to_ascii_uppercase();
+        n_named.get(&name).is_none_or(|count| *count == 1) && !is_of_assembly.contains(&name)
+    };
     for (instance, of_scope) in resolved {
         for (named, groups) in named.iter_mut().zip(of_scope.groups) {
-            // Sets of one name in several instances are told apart by these.
-            let name = |name: String| match instance {
-                Some(instance) if n_named[&name] > 1 => format!("{instance}.{name}"),
-                _ => name,
-            };
-            named.extend(groups.into_iter().map(|(set, members)| (name(set), members)));
+            for (name, members) in groups {
+                match (instance, name_in_assembly(&name)) {
+                    (Some(_), Some(name)) => join(named, name, members),
+                    (Some(instance), None) if !is_alone(&name) => {
+                        named.insert(format!("{instance}.{name}"), members);
+                    }
+                    (_, None) => join(named, &name, members),
+                    (None, Some(_)) => {}
+                }
+            }
         }
     }
     let [of_nodes, of_elements, of_surfaces] = named;
     mesh.nodes.groups = named_apart(of_nodes, [("elements", of_elements), ("surface", of_surfaces)]);
     (mesh.nodes.labels, mesh.nodes.coordinates) = (nodes.labels, nodes.coordinates);
     Ok(mesh)
+}
+
+/// Adds nodes to the group of a name, in whatever case.
+fn join(named: &mut BTreeMap<String, Vec<usize>>, name: &str, members: Vec<usize>) {
+    let known = named.keys().find(|known| known.eq_ignore_ascii_case(name)).cloned();
+    let group = named.entry(known.unwrap_or_else(|| name.to_owned())).or_default();
+    group.extend(members);
+    group.sort_unstable();
+    group.dedup();
 }
 
 /// The nodes of a scope, each once: programs accept a node that is defined again where it was.

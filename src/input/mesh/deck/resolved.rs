@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use super::lines::{DeckLines, Place};
-use super::scope::{Added, Face, Scope, SetLine, SurfaceLine};
+use super::scope::{Added, Face, Scope, SetLine, SurfaceLine, of_assembly};
 use super::surfaces::free_faces;
 use crate::error::{Error, Result};
 use crate::input::banner::excerpt;
@@ -67,6 +67,11 @@ impl Resolved {
     }
 }
 
+/// The set of a name in a scope: its own, otherwise its part of one of the assembly.
+fn found(sets: &Sets, name: &str) -> Option<usize> {
+    sets.find(name).or_else(|| sets.find(&of_assembly(name)))
+}
+
 impl Found<'_> {
     /// Puts the cells into the mesh; every node of an element must be there.
     fn cells(&self, mesh: &mut CellMesh) -> Result<()> {
@@ -114,11 +119,11 @@ impl Found<'_> {
             Added::Range { first: from, last, step } => {
                 labels.range(*from, *last, *step).map(|index| first + index).collect()
             }
-            Added::Set(name) => match sets.find(name) {
+            Added::Set(name) => match found(sets, name) {
                 Some(other) => sets.members(other).to_vec(),
                 None => return Err(self.no_set(name, line.place)),
             },
-            Added::NodesOf(name) => match of_elements.and_then(|sets| Some((sets.find(name)?, sets))) {
+            Added::NodesOf(name) => match of_elements.and_then(|sets| Some((found(sets, name)?, sets))) {
                 Some((other, sets)) => self.nodes_of(sets.members(other)).into_iter().map(|node| node as u32).collect(),
                 None => return Err(self.no_set(name, line.place)),
             },
@@ -147,6 +152,7 @@ impl Found<'_> {
             let surface = surfaces.named(&line.surface);
             let nodes = match &line.face {
                 Face::Nodes => self.members(line, (of_nodes, &self.nodes, self.first))?,
+                Face::OfSurface => self.members(line, (&surfaces, &Labels::none(), 0))?,
                 face => {
                     let elements = self.members(line, (of_elements, &self.elements, 0))?;
                     let labels = match face {
@@ -165,7 +171,7 @@ impl Found<'_> {
     fn members(&self, line: &SurfaceLine, (sets, labels, first): (&Sets, &Labels, u32)) -> Result<Vec<u32>> {
         match &line.of {
             Added::Set(name) | Added::NodesOf(name) => {
-                let members = sets.find(name).map(|set| sets.unsorted(set).to_vec());
+                let members = found(sets, name).map(|set| sets.unsorted(set).to_vec());
                 members.ok_or_else(|| self.no_set(name, line.place))
             }
             Added::Range { first: label, .. } => {

@@ -18,6 +18,31 @@ pub(super) struct Scope {
     pub(super) surfaces: Vec<SurfaceLine>,
 }
 
+/// Which labels a set lists.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum SetKind {
+    Nodes,
+    Elements,
+}
+
+impl Scope {
+    /// What sets of a kind get.
+    pub(super) fn sets(&self, kind: SetKind) -> &[SetLine] {
+        match kind {
+            SetKind::Nodes => &self.node_sets,
+            SetKind::Elements => &self.element_sets,
+        }
+    }
+
+    /// The same, to be added to.
+    pub(super) fn sets_mut(&mut self, kind: SetKind) -> &mut Vec<SetLine> {
+        match kind {
+            SetKind::Nodes => &mut self.node_sets,
+            SetKind::Elements => &mut self.element_sets,
+        }
+    }
+}
+
 /// Nodes as a deck lists them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NodeList {
@@ -49,6 +74,20 @@ impl ElementList {
         let end = self.starts.get(element + 1).copied().unwrap_or(self.nodes.len());
         &self.nodes[self.starts[element]..end]
     }
+}
+
+/// Stands before the names of sets and surfaces of the assembly where an instance has their part in it: the parts of an instance have names
+/// of their own.
+const OF_ASSEMBLY: char = '\u{1}';
+
+/// What an instance calls its part of a set or a surface of the assembly.
+pub(super) fn of_assembly(name: &str) -> String {
+    format!("{OF_ASSEMBLY}{name}")
+}
+
+/// The name that a set or a surface of the assembly has there; none of others.
+pub(super) fn name_in_assembly(name: &str) -> Option<&str> {
+    name.strip_prefix(OF_ASSEMBLY)
 }
 
 /// Something that a set gets.
@@ -92,4 +131,6 @@ pub(super) enum Face {
     Free,
     /// Of nodes all.
     Nodes,
+    /// Those of another surface.
+    OfSurface,
 }

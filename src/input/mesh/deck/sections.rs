@@ -3,7 +3,7 @@
 use super::elements::ElementType;
 use super::keyword::{Keyword, split_outside_quotes, unquoted};
 use super::lines::{DeckLines, is_keyword};
-use super::scope::{Added, Face, Scope, SetLine, SurfaceLine};
+use super::scope::{Added, Face, Scope, SetKind, SetLine, SurfaceLine};
 use crate::error::Result;
 use crate::input::allowance::Claim;
 use crate::input::banner::excerpt;
@@ -109,13 +109,6 @@ pub(super) fn elements(lines: &mut DeckLines, keyword: &Keyword, scope: &mut Sco
     Ok(())
 }
 
-/// Which labels a set lists.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum SetKind {
-    Nodes,
-    Elements,
-}
-
 /// `*NSET` and `*ELSET`: labels and names of sets, with `GENERATE` ranges of labels.
 pub(super) fn set(
     lines: &mut DeckLines,
@@ -128,7 +121,7 @@ pub(super) fn set(
         return Err(lines.error(keyword.shown(), format!("the name of the set, {parameter}=NAME")));
     };
     let place = lines.place();
-    let known = if kind == SetKind::Nodes { &mut scope.node_sets } else { &mut scope.element_sets };
+    let known = scope.sets_mut(kind);
     known.push(SetLine { set: name.clone(), added: Added::Nothing, place });
     if kind == SetKind::Nodes
         && let Some(elements) = keyword.value("ELSET")
@@ -153,13 +146,28 @@ pub(super) fn set(
 /// `*SURFACE`: faces of elements by label or set, or nodes.
 pub(super) fn surface(lines: &mut DeckLines, keyword: &Keyword, scope: &mut Scope, claim: &Claim<'_>) -> Result<()> {
     let kind = keyword.value("TYPE").unwrap_or("ELEMENT").to_ascii_uppercase();
-    let is_known = matches!(kind.as_str(), "ELEMENT" | "NODE") && keyword.parameter("COMBINE").is_none();
+    let combined = keyword.parameter("COMBINE").is_some();
+    let is_union = keyword.value("COMBINE").is_some_and(|how| how.eq_ignore_ascii_case("UNION"));
+    let is_known = matches!(kind.as_str(), "ELEMENT" | "NODE") && (is_union || !combined);
     let Some(name) = keyword.value("NAME").filter(|_| is_known).map(str::to_owned) else {
-        // Analytical and cut surfaces, and combinations of others, list nothing of the mesh.
+        // Analytical and cut surfaces list nothing of the mesh, and what others have in common is not told by their nodes.
         return skip(lines);
     };
     while let Some(line) = data_line(lines)? {
         let text = String::from_utf8_lossy(line).into_owned();
+        if is_union {
+            let place = lines.place();
+            claim.add(4 * MEMBER)?;
+            let names = split_outside_quotes(&text).map(unquoted).filter(|name| !name.is_empty());
+            let of = |name: &str| Added::Set(name.to_owned());
+            scope.surfaces.extend(names.map(|other| SurfaceLine {
+                surface: name.clone(),
+                of: of(other),
+                face: Face::OfSurface,
+                place,
+            }));
+            continue;
+        }
         let mut fields = split_outside_quotes(&text).map(unquoted);
         let of = fields.next().filter(|of| !of.is_empty()).map(member);
         let face = match (kind.as_str(), fields.next().unwrap_or_default()) {

@@ -86,7 +86,7 @@ pub(super) fn frames(lines: &DeckLines, transforms: &[Transform], nodes: Option<
             axes.insert(nodes.labels[node], own);
         }
     }
-    Ok(Some(NodeFrames { axes, of_axes: 0.0, place: lines.at(first.place) }))
+    Ok(Some(NodeFrames { axes, rounded: BTreeMap::new(), place: lines.at(first.place) }))
 }
 
 /// The nodes of a set, whatever the case of its name, or the one of this label.
