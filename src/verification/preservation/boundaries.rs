@@ -4,7 +4,7 @@ use super::outcome::{BoundaryComparison, FrequencyPair};
 use super::reduced::{Quotient, quotients};
 use super::reference::{ROUNDINGS, Reference};
 use crate::dense;
-use crate::eigen::ModeError;
+use crate::eigen::{ModeError, zero};
 use crate::error::Result;
 use crate::verification::check::{Check, Limits};
 use crate::verification::evidence::{Evidence, data_noise};
@@ -24,9 +24,12 @@ impl Reference {
 
     fn pairs(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> Vec<FrequencyPair> {
         let pair = |(j, (full, error)): (usize, (&f64, &ModeError))| {
-            let full_hz = evidence.partition.scaling.hertz(*full);
-            let reduced_hz =
-                reduced.get(j).map_or(f64::INFINITY, |quotient| evidence.partition.scaling.hertz(quotient.lambda));
+            let scaling = &evidence.partition.scaling;
+            if reduced.get(j).is_some_and(|quotient| are_zero(*full, error, quotient)) {
+                return FrequencyPair::of_no_energy(scaling.hertz(error.zero_level), band_hz);
+            }
+            let full_hz = scaling.hertz(*full);
+            let reduced_hz = reduced.get(j).map_or(f64::INFINITY, |quotient| scaling.hertz(quotient.lambda));
             FrequencyPair::new([full_hz, reduced_hz], error.bar_of(full_hz), band_hz)
         };
         self.lambda.iter().zip(&self.errors).enumerate().map(pair).collect()
@@ -45,6 +48,13 @@ impl Reference {
     }
 }
 
+/// Whether a motion costs no energy in either model as far as its rounding tells: of what is left no one can say which is larger. A mechanism
+/// inside a thin plate, which a boundary leaves free, is one.
+fn are_zero(full: f64, error: &ModeError, reduced: &Quotient) -> bool {
+    let level_of_reduced = error.zero_level.max(ROUNDINGS * reduced.rounding * reduced.lambda.abs());
+    zero::is_zero(full, error.zero_level) && zero::is_zero(reduced.lambda, level_of_reduced)
+}
+
 /// M-24: a reduced model is the full one with constraints; none of its eigenvalues lies below.
 ///
 /// What may still be missing is bounded term by term. Each of the two Rayleigh quotients has the rounding of its own terms,
@@ -57,8 +67,9 @@ pub(super) fn monotonicity(evidence: &Evidence<'_>, references: &[Reference]) ->
     let mut worst: (f64, [Limits; 2], Option<String>) = (0.0, [least; 2], None);
     for reference in references {
         let quotients = quotients(evidence, reference, k, m)?;
+        let pairs = quotients.iter().zip(reference.lambda.iter().zip(&reference.errors)).enumerate();
         for (j, (reduced, (full, error))) in
-            quotients.iter().zip(reference.lambda.iter().zip(&reference.errors)).enumerate()
+            pairs.filter(|(_, (reduced, (full, error)))| !are_zero(**full, error, reduced))
         {
             let below = (1.0 - reduced.lambda / full).max(0.0);
             let terms = f64::EPSILON * error.cancellation + error.rounding_floor / full.abs();
