@@ -66,6 +66,13 @@ pub(crate) fn scientific(value: f64, digits: usize) -> String {
     }
 }
 
+/// A positive limit with `digits` significant digits, rounded towards zero: what is below it as it is printed is below it.
+pub(crate) fn no_more_than(value: f64, digits: usize) -> f64 {
+    let rounded = |value: f64| format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value);
+    let nearest = rounded(value);
+    if nearest <= value { nearest } else { rounded(nearest - 10.0f64.powi(decade(value) + 1 - digits as i32)) }
+}
+
 /// Powers of 1024 with three digits: `41.2 MiB`.
 pub(crate) fn bytes(size: u64) -> String {
     const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
@@ -116,6 +123,7 @@ mod tests {
         assert_eq!(quantity(1.234e-3, 6), "0.001234");
         assert_eq!(quantity(-2.5e-9, 3), "-2.50e-09");
         assert_eq!([0.25, -5.0, 1e300, 1e-9].map(typed), ["0.25", "-5", "1e300", "1e-9"]);
+        assert_eq!([4.981e-5, 5e-5, 9.96e-5, 1.0].map(|value| no_more_than(value, 2)), [4.9e-5, 5e-5, 9.9e-5, 1.0]);
         assert_eq!(scientific(1.25e-13, 2), "1.2e-13");
         assert_eq!(scientific(f64::INFINITY, 2), "∞");
         assert_eq!(bytes(999), "999 bytes");

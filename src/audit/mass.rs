@@ -8,8 +8,8 @@ use super::content::Content;
 use super::rigid_motion::is_nearly_unit;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::partition::Partition;
-use crate::verification::{self, mass_difference};
 use crate::verification::check::{Check, Limits};
+use crate::verification::{self, mass_difference};
 
 /// M-16: ÛᵀM̂Û against the rigid-body mass of the full model.
 pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {

@@ -45,7 +45,9 @@ pub(super) fn run(command: &AllCommand, here: (Pipeline, RunLine), terminal: &mu
     drop(line);
     let (made, mut said) = rows(&stale, ended);
     let mut made = made.into_iter();
-    let components: Vec<ComponentRow> = up_to_date.into_iter().filter_map(|row| row.or_else(|| made.next())).collect();
+    let of_jobs: Vec<ComponentRow> = up_to_date.into_iter().filter_map(|row| row.or_else(|| made.next())).collect();
+    let named = |(name, at): &(String, usize)| ComponentRow { name: name.clone(), ..of_jobs[*at].clone() };
+    let components: Vec<ComponentRow> = command.components.iter().map(named).collect();
     let joins = joins(command, &components, shares.budget);
     said.extend(joins.iter().filter_map(JoinRow::refusal));
     answer(&ReductionsReport { components, joins, budget_bytes: shares.budget }, (command.answer, &said), terminal)

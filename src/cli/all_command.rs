@@ -20,8 +20,10 @@ use crate::error::{Error, Result};
 /// Reduce many jobs.
 #[derive(Debug)]
 pub(super) struct AllCommand {
-    /// In the order in which they are admitted and shown.
+    /// Each job once, in the order in which they are admitted.
     pub(super) members: Vec<Member>,
+    /// The components in the order in which they are shown: their names, and which of the jobs makes each.
+    pub(super) components: Vec<(String, usize)>,
     /// Pairs of selections.
     pub(super) joins: Vec<(String, String)>,
     /// TOML documents of the folder that are no jobs.
@@ -67,8 +69,19 @@ impl AllCommand {
         let budget_bytes = run.memory_gib.map(|gib| typed_bytes("--memory-gib", gib)).transpose()?;
         // Each run chooses its cache by itself; a size that is none is said once.
         CacheChoice::of(run)?;
+        let (mut members, mut places, mut components) = (Vec::new(), Vec::new(), Vec::new());
+        for (name, document) in jobs {
+            let place = place(&document);
+            let at = places.iter().position(|earlier| *earlier == place).unwrap_or(places.len());
+            if at == places.len() {
+                places.push(place);
+                members.push(Member::of(name.clone(), document, (output, run)));
+            }
+            components.push((name, at));
+        }
         Ok(Self {
-            members: jobs.into_iter().map(|(name, document)| Member::of(name, document, (output, run))).collect(),
+            members,
+            components,
             joins,
             passed_over,
             threads: Threads::of(run.threads),
@@ -76,6 +89,12 @@ impl AllCommand {
             answer: Answer::from((output.json, output.quiet)),
         })
     }
+}
+
+/// Where a document is: its name in its folder, whichever way leads there. A link is a document of its own, from whose folder paths count.
+fn place(document: &Path) -> PathBuf {
+    let folder = document.parent().and_then(|folder| folder.canonicalize().ok());
+    folder.zip(document.file_name()).map_or_else(|| document.to_owned(), |(folder, name)| folder.join(name))
 }
 
 impl Member {

@@ -46,7 +46,7 @@ fn collect(folder: &Path, documents: &mut Vec<PathBuf>) -> Result<()> {
         let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
         if kind.is_dir() && !is_hidden {
             collect(&path, documents)?;
-        } else if path.extension().is_some_and(|extension| extension == "toml") && !path.is_dir() {
+        } else if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) && !path.is_dir() {
             // A link that leads nowhere stands where a job was meant to be.
             documents.push(path);
         }

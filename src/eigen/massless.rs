@@ -45,7 +45,8 @@ impl ByInertia {
         let directions = Mat::from_fn(n_r, n_r, |i, j| units[i] * vectors[(i, j)]);
         let w = dense::product(u, directions.as_ref());
         // The inertia of the motions themselves: eigenvalues carry the rounding of the largest of them.
-        let inertia = |m: MatRef<'_, f64>, w: &Mat<f64>| dense::dots(w.as_ref(), dense::product(m, w.as_ref()).as_ref());
+        let inertia =
+            |m: MatRef<'_, f64>, w: &Mat<f64>| dense::dots(w.as_ref(), dense::product(m, w.as_ref()).as_ref());
         let (own, absolute) = (inertia(m, &w), dense::absolute(m));
         let terms = inertia(absolute.as_ref(), &dense::absolute(w.as_ref()));
         let of_terms = dense::product(dense::absolute(u).as_ref(), dense::absolute(directions.as_ref()).as_ref());

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use super::analysis::AnalysisJob;
 use super::interface::{Axes, AxesGiven, Coupling, InterfaceJob, Origin, Weights};
 use super::method::{Boundary, ModeOrigin};
 use super::node_selection::NodeSelection;
@@ -10,7 +11,7 @@ use super::ranges::{self, positive, size};
 use super::reduction::{ModeSelection, ModesJob};
 use super::selection;
 use super::statements;
-use super::types::{Job, ModelState};
+use super::types::{Job, ModelState, Skip};
 use crate::dofs::Direction;
 use crate::error::{Error, Result, Selector};
 
@@ -48,6 +49,9 @@ fn reduction(job: &Job) -> Result<()> {
     // The band decides how many modes are kept where nothing else does.
     let has_band = job.scene.as_ref().is_some_and(|scene| scene.band_hz.is_some());
     let accepts_errors_of_modes = has_band && job.accepted().limits_modes();
+    // Statics has no modes; with nothing skipped it is left to the method all the same.
+    let is_static = job.scene.as_ref().is_some_and(|scene| scene.analysis == Some(AnalysisJob::Static));
+    let needs_none = has_band || is_static && job.run.skip == Skip::ByScene;
     let job = &job.reduction;
     let method = job.method.key();
     let computed = format!(
@@ -56,7 +60,7 @@ fn reduction(job: &Job) -> Result<()> {
     let of_file = format!("expected the file of the modes that {method} takes: {{ file = \"modes.mtx\" }}");
     let refuse = |found, expected| Err(Error::JobModes { found, expected });
     match (job.method.modes(), &job.modes) {
-        (ModeOrigin::Computed, None) if has_band => Ok(()),
+        (ModeOrigin::Computed, None) if needs_none => Ok(()),
         (ModeOrigin::Computed, None) => refuse("missing", computed),
         (ModeOrigin::Computed, Some(ModesJob::File { .. })) => refuse("a file", computed),
         (ModeOrigin::File, None) => refuse("missing", of_file),

@@ -296,7 +296,8 @@ pub(super) fn missing(problem: &BoundaryProblem<'_>, modes: &Modes, upper: Elast
     let [found, counted] = [modes.n_between(f64::NEG_INFINITY, sigma), upper.n_elastic].map(|n| n + n_rigid);
     // None is missing: a motion that is free as far as few digits tell is one by itself, and not with the rounding of the others.
     if found > counted && partition.has_few_digits() {
-        let what = format!("how many modes lie below {below_hz:.6} Hz: {found} were found, and a Sturm count says {counted}");
+        let what =
+            format!("how many modes lie below {below_hz:.6} Hz: {found} were found, and a Sturm count says {counted}");
         return Error::DigitsTooFew { what, known: partition.precision.stiffness.in_words() };
     }
     Error::ModesMissing { below_hz, found, counted }

@@ -12,10 +12,12 @@ pub enum TransformationRow {
 }
 
 impl TransformationRow {
-    /// Adds entries to those of a row that follows a patch.
+    /// Adds entries to those of a row that follows a patch. One that the patch's node leaves at rest, as its directions are held, follows them alone.
     pub(super) fn extend(&mut self, more: &[(u32, f64)]) {
-        if let Self::Tied(entries) = self {
-            *entries = entries.iter().chain(more).copied().collect();
+        match self {
+            Self::Tied(entries) => *entries = entries.iter().chain(more).copied().collect(),
+            Self::Held if !more.is_empty() => *self = Self::Tied(more.into()),
+            Self::Held | Self::Dof(_) => {}
         }
     }
 

@@ -116,6 +116,7 @@ impl ModesReport<'_> {
     fn notes(&self) -> Vec<String> {
         let Self { assembly, modes, .. } = *self;
         let mut notes = assembly.notes.clone();
+        notes.extend(assembly.components.iter().filter_map(unseen));
         notes.extend(assembly.joined_to_nothing().map(|name| format!("{name} is joined to nothing")));
         if modes.n_massless > 0 {
             let motions = counted(modes.n_massless, "motion has", "motions have");
@@ -200,11 +201,17 @@ impl ModesReport<'_> {
             let says = if names.len() == 1 { "does not say what it leaves" } else { "do not say what they leave" };
             return format!("{above} There are no lower bounds, as {} {says} out.", names.join(", "));
         }
+        let but_unseen = " of its number, numbered without modes that nothing starts or sees";
         match self.modes.band_hz {
             None => format!("{above} No component leaves anything out, so that each is exact as well."),
             Some(band) => format!(
-                "{above} None is below the lower bound, by the modes that the components leave out; these begin at {} Hz, and \
+                "{above} None is below the lower bound{}, by the modes that the components leave out; these begin at {} Hz, and \
                 frequencies above that are marked.{}",
+                if self.assembly.components.iter().any(|component| unseen(component).is_some()) {
+                    but_unseen
+                } else {
+                    ""
+                },
                 number::quantity(band, 7),
                 self.least_certain()
             ),
@@ -253,6 +260,23 @@ fn omits(omitted: &Omitted) -> String {
         Omitted::Above { hz, .. } => format!("leaves out motions above {} Hz", number::quantity(*hz, 7)),
         Omitted::Unknown { why } => format!("leaves out motions, and where they begin is unknown: {why}"),
     }
+}
+
+/// The modes that a component leaves out because nothing starts or sees them; none where it leaves out none.
+fn unseen(component: &Component) -> Option<String> {
+    let superelement = &component.superelement;
+    let omegas: Vec<f64> = superelement
+        .metadata()
+        .unseen_modes()
+        .filter_map(|mode| superelement.tensors().frequencies.get(mode).copied())
+        .collect();
+    let lowest = omegas.iter().copied().reduce(f64::min)? / std::f64::consts::TAU;
+    Some(format!(
+        "{} leaves out {} that nothing starts or sees, the lowest at {} Hz: the full assembly has them in addition to those listed here",
+        component.name,
+        counted(omegas.len(), "mode", "modes"),
+        number::quantity(lowest, 7)
+    ))
 }
 
 /// How far the lower bound is below the frequency, in per cent of it.

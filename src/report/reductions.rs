@@ -6,6 +6,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::page::{Page, Paint, Tone};
+use super::printable::printable;
 use super::table::{self, Align};
 use super::{Generator, json_text};
 use crate::assembly::Joint;
@@ -241,13 +242,13 @@ impl ReductionsReport {
         let body = self.components.iter().map(|row| {
             let file = row.superelement.as_ref().and_then(|path| path.file_name());
             [
-                row.name.clone(),
+                printable(&row.name).into_owned(),
                 row.words().0,
                 number(row.n_dofs),
                 number(row.n_reduced),
                 number(row.n_modes),
                 or_dash(row.seconds.map(|seconds| format!("{seconds:.2}"))),
-                or_dash(file.map(|name| name.to_string_lossy().into_owned())),
+                or_dash(file.map(|name| printable(&name.to_string_lossy()).into_owned())),
             ]
         });
         let rows: Vec<[String; 7]> = std::iter::once(head).chain(body).collect();

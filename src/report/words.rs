@@ -97,7 +97,7 @@ pub(super) fn accuracy(body: &ReportBody) -> Vec<(&'static str, String)> {
         Some(highest) => format!(
             "highest frequency {} Hz, explicit steps below {} s {}",
             number::quantity(highest.frequency_hz, 5),
-            number::scientific(highest.explicit_step_s, 2),
+            number::scientific(number::no_more_than(highest.explicit_step_s, 2), 2),
             if highest.is_damped { "damped" } else { "undamped" }
         ),
         None => "no largest explicit step is known: a motion has no mass, or none was found".to_owned(),

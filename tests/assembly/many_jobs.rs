@@ -156,6 +156,33 @@ fn interfaces_that_an_assembly_joins_are_compared() {
     assert_eq!(document["joins"][0]["error"]["code"], "E-JOIN-UNITS");
 }
 
+/// Two wheels of one job: it runs once, whichever way its document is named, and both components have what it made.
+#[test]
+fn a_job_of_several_components_is_reduced_once() {
+    let place = halves("m-kg-s");
+    std::fs::create_dir_all(place.path("below")).expect("a folder");
+    let wheels = ASSEMBLY.replace("right.toml", "below/../left.toml").replace("right.first", "right.last");
+    place.write("assembly.toml", wheels.as_bytes());
+    for outcome in ["reduced", "up-to-date"] {
+        let document = answered(&reduce_all(&place, "assembly.toml", &["--json"]).expect(ExitCode::Done));
+        assert_eq!(outcomes(&document), [["left", outcome, ""], ["right", outcome, ""]]);
+        assert_eq!(document["components"][0]["superelement"], document["components"][1]["superelement"]);
+        assert_eq!(document["joins"].as_array().map(Vec::len), Some(1), "{}", document["joins"]);
+    }
+}
+
+/// A document in capitals is a job as any other, and a name of several lines has one line of the table.
+#[test]
+fn names_of_any_kind_have_one_line_of_the_table() {
+    let place = halves("m-kg-s");
+    std::fs::rename(place.path("left.toml"), place.path("LEFT.TOML")).expect("renamed");
+    std::fs::rename(place.path("right.toml"), place.path("ri\nght.toml")).expect("renamed");
+    let said = reduce_all(&place, "", &[]).expect(ExitCode::Done).out;
+    let of = |name: &str| said.lines().find(|line| line.contains(name)).unwrap_or_else(|| panic!("{said}"));
+    let column = |line: &str| line.split("verified").next().map(|before| before.chars().count());
+    assert_eq!(column(of("  LEFT ")), column(of("  ri\\nght ")), "{said}");
+}
+
 #[test]
 fn what_cannot_be_many_jobs_is_refused_before_anything_runs() {
     let place = halves("m-kg-s");

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use supel::cli::ExitCode;
+use supel_models::springs::springs;
 
 use crate::place::{Ended, Place, supel};
 
@@ -576,4 +577,23 @@ fn equal_weights_of_quadratic_faces() {
     assert_eq!(warned("coupling = \"rigid\""), None, "a rigid patch has no weights");
     place.write("mesh.xdmf", xdmf(&model.nodes, &[bricks_of_eight()]).as_bytes());
     assert_eq!(warned("coupling = \"average\""), None, "corners alone");
+}
+
+/// What is below a limit as it is printed is below it: a step of the largest explicit one in the summary is stable.
+#[test]
+fn the_largest_explicit_step_is_not_rounded_up() {
+    for stiffness in [1e3, 2e3, 3e3, 4e3, 5e3, 7e3] {
+        let place = Place::with(&springs(&[1.0, 2.0, 1.0], &[(0, stiffness)], &[(0, 1, stiffness), (1, 2, stiffness)]));
+        let text = "model = { stiffness = \"K.mtx\", mass = \"M.mtx\" }\n\
+             interface = [{ name = \"end\", nodes = { rows = [0] } }]\n\
+             reduction = { method = \"craig-bampton\", modes = { count = 1 } }\n\
+             write = { superelement = \"x.supel\" }\n";
+        place.write("job.toml", text.as_bytes());
+        let said = supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done).out;
+        let limit = &place.report("x.report.json")["body"]["preservation"]["highest"]["explicit_step_s"];
+        let limit = limit.as_f64().expect("a step");
+        let printed = said.split("explicit steps below ").nth(1).and_then(|rest| rest.split(' ').next());
+        let printed: f64 = printed.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{said}"));
+        assert!(printed <= limit && printed > 0.9 * limit, "{printed:e} for {limit:e}");
+    }
 }

@@ -3,8 +3,11 @@
 //! A block with one end at rest, joined at the middle line of the other end in its plane of symmetry, and looked at on its axis: torsion moves
 //! neither, nor does gravity start it.
 
+use faer::Mat;
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel::dense::{symmetric_eigen, unpacked};
+use supel_models::Model;
 use supel_models::springs::springs;
 use supel_runtime::{DropCause, Matrix, Metadata, Superelement, Tensors};
 
@@ -240,4 +243,85 @@ fn pendulums_against_each_other_have_no_coordinate_unless_their_cluster_is_seen(
         assert_eq!(left_out(&file).len(), n_left_out, "{method}: {}", body["reduction"]["modes"]);
         assert_eq!(verified(&place, "x.supel").1, ExitCode::Done, "{method}");
     }
+}
+
+/// Two rods of ten masses from one body, tied to each other so that the modes of one against the other, which nothing sees, lie `step`/2 above the
+/// modes of both together.
+fn rods(step: f64) -> Model {
+    const N: u32 = 10;
+    let row = |rod: u32, at: u32| 1 + rod * N + at;
+    let tie = 0.5 * (rod_alone(2) * (1.0 + 0.5 * step).powi(2) - rod_alone(1));
+    let along = (0..2).flat_map(|rod| (1..N).map(move |at| (row(rod, at - 1), row(rod, at), 1e6)));
+    let at_body = (0..2).map(|rod| (0, row(rod, 0), 1e6));
+    let across = (0..N).map(|at| (row(0, at), row(1, at), tie));
+    springs(
+        &[[2.0; 1].as_slice(), &[1.0; 2 * N as usize]].concat(),
+        &[],
+        &along.chain(at_body).chain(across).collect::<Vec<_>>(),
+    )
+}
+
+/// λ of mode `j` of ten masses of 1 on springs of 1e6, the first of which ends at rest: 4k/m sin²((2j − 1)π/42).
+fn rod_alone(j: u32) -> f64 {
+    4e6 * (f64::from(2 * j - 1) * std::f64::consts::PI / 42.0).sin().powi(2)
+}
+
+/// λ of a superelement with its first coordinate held, ascending.
+fn held(file: &Superelement) -> Vec<f64> {
+    let [k, m] = [&file.tensors().stiffness, &file.tensors().mass].map(unpacked);
+    let n = k.nrows() - 1;
+    let [k, m] = [k, m].map(|a| a.submatrix(1, 1, n, n).to_owned());
+    let (masses, shapes) = symmetric_eigen(m.as_ref()).expect("a mass");
+    let scaled = Mat::from_fn(n, n, |i, j| shapes[(i, j)] / masses[j].sqrt());
+    symmetric_eigen((scaled.transpose() * &k * &scaled).as_ref()).expect("a stiffness").0
+}
+
+/// A mode that is left out lies between a frequency of the full model and the one that answers it. Put back among those of the reduced model it
+/// would be taken for the answer: what the scene accepts would be exceeded, and be found met.
+#[test]
+fn errors_of_frequencies_are_those_of_what_the_superelement_has() {
+    const ACCEPTED: f64 = 0.018;
+    let place = Place::with(&rods(0.026));
+    let hertz = |lambda: f64| lambda.sqrt() / std::f64::consts::TAU;
+    let text = format!(
+        "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", stiffness_digits = 17, mass_digits = 17 }}\n\
+         interface = [{{ name = \"body\", nodes = {{ rows = [0] }} }}]\n\
+         reduction = {{ method = \"herting\", modes = {{ accept = true }} }}\n\
+         scene = {{ band_hz = [0, {}], boundaries = [\"free\", \"fix:body\"], accept = {{ frequency = {ACCEPTED} }} }}\n\
+         write = {{ superelement = \"x.supel\" }}\n",
+        1.12 * hertz(rod_alone(2))
+    );
+    place.write("job.toml", text.as_bytes());
+    let (file, body) = reduced(&place, &[]);
+    assert!(!left_out(&file).is_empty(), "{}", body["reduction"]["modes"]);
+    let error = |at: usize| hertz(held(&file)[at]) / hertz(rod_alone(at as u32 + 1)) - 1.0;
+    assert!(error(0) <= ACCEPTED && error(1) <= ACCEPTED, "{:e} {:e}", error(0), error(1));
+    let said = check(&body, "M-29")["value"].as_f64().expect("a number");
+    assert!(said >= error(1) * (1.0 - 1e-6), "{said:e} for {:e}", error(1));
+    let (audit, code) = verified(&place, "x.supel");
+    assert_eq!(code, ExitCode::Done, "{audit:#}");
+}
+
+/// Bending across the plane of symmetry moves neither tip nor loads: gravity alone starts it, where the scene lets it act along y.
+#[test]
+fn modes_that_gravity_alone_starts_are_left_out_where_it_does_not_act() {
+    let place = Place::with_brick();
+    let made = |gravity: &str| {
+        let scene = format!(
+            "band_hz = [0, 4000], boundaries = [\"free\"], accept = {{ frequency = 1e-3 }}, gravity = {gravity}"
+        );
+        write_job(&place, ("craig-bampton", "accept = true"), &scene, "");
+        let (file, _) = reduced(&place, &[]);
+        let (audit, code) = verified(&place, "x.supel");
+        assert_eq!(code, ExitCode::Done, "{audit:#}");
+        file
+    };
+    let (everywhere, nowhere, downwards) = (made("true"), made("false"), made("[0, 0, -9.81]"));
+    assert!(left_out(&everywhere).len() < left_out(&nowhere).len(), "{:?}", left_out(&nowhere));
+    assert_eq!(left_out(&downwards), left_out(&nowhere));
+    let assumes =
+        |file: &Superelement, words: &str| file.metadata().validity.assumptions.iter().any(|said| said.contains(words));
+    assert!(assumes(&everywhere, "as gravity") && !assumes(&nowhere, "as gravity"));
+    assert!(assumes(&downwards, "as gravity along (0, 0, "));
+    assert_eq!((everywhere.metadata().validity.gravity, nowhere.metadata().validity.gravity), (None, Some([0.0; 3])));
 }

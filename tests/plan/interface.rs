@@ -115,6 +115,31 @@ fn grounded_directions_of_a_patch_leave_the_stiffness() {
     assert!(error <= CONDENSED, "mass: {error:e}");
 }
 
+/// An average whose directions are at rest in part, or as a whole, deforms as before: what is left of K̂, M̂ and the modes of the held interface are
+/// those with all of it. Three of them are all that a row along one axis follows of the mean motion, and the row is not at rest for it.
+#[test]
+fn grounded_directions_of_an_average_leave_its_patch_free_to_deform() {
+    let average = PATCHES.replacen("name = \"tip\"\ncoupling = \"rigid\"", "name = \"tip\"\ncoupling = \"average\"", 1);
+    let average: &'static str = Box::leak(average.into_boxed_str());
+    let whole = Case::new(average, CRAIG_BAMPTON, "").made();
+    for (scene, grounded) in [
+        ("grounded = [\"tip.ux\", \"tip.ry\", \"tip.rz\"]", &[6, 10, 11][..]),
+        ("grounded = [\"tip.uy\", \"tip.rx\", \"tip.rz\"]", &[7, 9, 11]),
+        ("grounded = [\"tip\"]", &[6, 7, 8, 9, 10, 11]),
+    ] {
+        let held = Case::new(average, CRAIG_BAMPTON, scene).made();
+        let left: Vec<usize> = (0..12).filter(|at| !grounded.contains(at)).collect();
+        let own: Vec<usize> = (0..left.len()).collect();
+        for (part_of_held, part_of_whole) in [(held.stiffness(), whole.stiffness()), (held.mass(), whole.mass())] {
+            let error = difference(&part(&part_of_held, &own, &own), &part(&part_of_whole, &left, &left));
+            assert!(error <= CONDENSED, "{scene}: {error:e}");
+        }
+        // Rounding of the eigensolver is far below this, a patch that cannot deform far above.
+        let pairs = held.file.tensors().frequencies.iter().zip(&whole.file.tensors().frequencies);
+        assert!(pairs.clone().all(|(a, b)| (a / b - 1.0).abs() <= 1e-9), "{scene}: {:?}", pairs.collect::<Vec<_>>());
+    }
+}
+
 /// Three nodes on one rigid body: K̂ = DᵀK̂D with the levers D, without a solve where nothing else is interface.
 #[test]
 fn prescribed_interfaces_move_as_one_body() {

@@ -46,6 +46,19 @@ fn a_mass_that_nothing_depends_on_is_not_read() {
     assert!(refused.err.contains("E-JOB-MASS"), "{}", refused.err);
 }
 
+/// A job that says no number of modes has none to say where statics is all that is asked; with nothing left out its method keeps some.
+#[test]
+fn statics_needs_no_number_of_modes() {
+    for method in ["herting", "craig-bampton"] {
+        let reduction: &'static str = Box::leak(format!("method = \"{method}\"").into_boxed_str());
+        let stated = Case::new(PATCHES, reduction, "analysis = \"static\"").made();
+        assert_eq!(stated.file.n_coordinates(), stated.n_b(), "{method}");
+        let job = stated.place.text("job.toml");
+        let refused = supel(&["reduce", &job, "--no-skip"]).expect(ExitCode::Usage);
+        assert!(refused.err.contains("E-JOB-MODES"), "{}", refused.err);
+    }
+}
+
 /// The file says what it lacks, and a component in large motion, modes and a mass of other programs are refused by name.
 #[test]
 fn a_superelement_of_statics_says_so() {

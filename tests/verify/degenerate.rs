@@ -350,12 +350,21 @@ fn straight_beams_of_lumped_masses_agree() {
 #[test]
 fn a_frame_of_lumped_masses_agrees() {
     let nodes = [
-        [0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0],
-        [0.0, 0.0, 0.8], [1.0, 0.0, 0.8], [1.0, 1.0, 0.8], [0.0, 1.0, 0.8],
-        [0.5, 0.5, 0.9], [0.5, 0.52, 1.2],
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.8],
+        [1.0, 0.0, 0.8],
+        [1.0, 1.0, 0.8],
+        [0.0, 1.0, 0.8],
+        [0.5, 0.5, 0.9],
+        [0.5, 0.52, 1.2],
     ];
-    let edges: Vec<[usize; 2]> =
-        (0..4).flat_map(|i| [[i, (i + 1) % 4], [i, i + 4], [i + 4, (i + 1) % 4 + 4], [i + 4, 8]]).chain([[8, 9]]).collect();
+    let edges: Vec<[usize; 2]> = (0..4)
+        .flat_map(|i| [[i, (i + 1) % 4], [i, i + 4], [i + 4, (i + 1) % 4 + 4], [i + 4, 8]])
+        .chain([[8, 9]])
+        .collect();
     let model = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::LumpedTranslations);
     let place = Place::with(&model);
     let feet = "--interface a=1 --interface b=2 --interface c=3 --interface d=4 --interface e=5 --interface f=6";
@@ -365,7 +374,8 @@ fn a_frame_of_lumped_masses_agrees() {
 /// The mean motion of all nodes moves the component as a whole: nothing of its stiffness is left there but rounding, which is no size.
 #[test]
 fn an_average_over_all_nodes_agrees() {
-    let zigzag: Vec<[f64; 3]> = (0..8).map(|i| [0.12 * f64::from(i), 0.03 * f64::from(i % 3), 0.05 * f64::from(i % 2)]).collect();
+    let zigzag: Vec<[f64; 3]> =
+        (0..8).map(|i| [0.12 * f64::from(i), 0.03 * f64::from(i % 3), 0.05 * f64::from(i % 2)]).collect();
     let edges: Vec<[usize; 2]> = (0..7).map(|i| [i, i + 1]).collect();
     let chain = frame(&zigzag, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
     let all = "[1, 2, 3, 4, 5, 6, 7, 8]";

@@ -18,6 +18,7 @@ use super::projection::Projected;
 use super::scaled::Scaled;
 use crate::audit::named_modes::{WithInverse, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::NO_MASS;
 
 /// Weight of recovered rows and further matrices relative to all others: in single precision they have seven digits, which may decide on what nothing else
 /// sees and on nothing more.

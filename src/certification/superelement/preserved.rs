@@ -59,7 +59,7 @@ pub fn preserved(
         measured: Projection::default(),
         ..own.reduction.clone()
     };
-    let evidence = Evidence { reduction: &reduction, ..*own };
+    let evidence = Evidence { reduction: &reduction, unseen: &[], ..*own };
     let mut compared = verification::preservation_of_file((&evidence, own), analysis, job)?;
     // Its leading coordinates are not what a smaller superelement of its maker would have.
     compared.report.size_errors.clear();

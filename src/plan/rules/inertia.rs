@@ -2,6 +2,7 @@
 
 use supel_runtime::RigidBodyModes;
 
+use super::unseen::{Unseen, unseen};
 use crate::job::{Method, ReductionJob};
 use crate::number::{counted, quantity};
 use crate::plan::facts::{Facts, MassPattern};
@@ -57,15 +58,20 @@ pub(in crate::plan) fn relief(scene: &Scene<'_>) -> Relief {
     }
 }
 
-/// The direction of gravity for which columns of inertia relief are left out.
+/// The direction of gravity for which anything is left out: columns of inertia relief, or modes that gravity along others would start.
 pub(in crate::plan) fn gravity(scene: &Scene<'_>) -> Option<[f64; 3]> {
+    relieved(scene).or_else(|| scene.gravity().filter(|_| unseen(scene) == Unseen::LeftOut))
+}
+
+/// The direction of gravity for which columns of inertia relief are left out.
+fn relieved(scene: &Scene<'_>) -> Option<[f64; 3]> {
     let is_asked = scene.job.reduction.inertia_relief && !scene.method().has_inertia_relief();
     scene.gravity().filter(|_| is_asked || scene.is_static())
 }
 
 /// What the columns of inertia relief that are left out take for granted.
 pub(super) fn assumption(scene: &Scene<'_>) -> Option<String> {
-    match gravity(scene)? {
+    match relieved(scene)? {
         direction if direction == [0.0; 3] => {
             Some("neither gravity nor acceleration of the whole deflects the component".to_owned())
         }

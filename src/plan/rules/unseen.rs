@@ -45,7 +45,7 @@ pub(super) fn assumption(scene: &Scene<'_>) -> Option<String> {
     }
     let names: Vec<&str> = scene.job.loads.iter().map(|load| load.name.as_str()).collect();
     let loads = if names.is_empty() { String::new() } else { format!(", as the loads {}", names.join(", ")) };
-    let gravity = match super::gravity(scene) {
+    let gravity = match scene.gravity() {
         None => ", as gravity".to_owned(),
         Some(direction) if direction == [0.0; 3] => String::new(),
         Some(direction) => {

@@ -3,7 +3,7 @@
 use super::front::{in_words, percent};
 use super::markup::{Cell, Figure, Markup, Table};
 use super::plot;
-use crate::number::{counted, quantity, scientific};
+use crate::number::{counted, no_more_than, quantity, scientific};
 use crate::verification::preservation::{Preservation, SizeError};
 
 pub(super) fn size(page: &mut Markup, preservation: &Preservation) {
@@ -19,7 +19,7 @@ pub(super) fn size(page: &mut Markup, preservation: &Preservation) {
              motion with steps of {} s, a twentieth of its period. It belongs to the basis rather than to the component: \
              where it costs too many steps, damp it or leave it out.",
             quantity(highest.frequency_hz, 6),
-            in_words(highest.explicit_step_s, 3),
+            in_words(no_more_than(highest.explicit_step_s, 3), 3),
             if highest.is_damped { "with the damping of the superelement" } else { "undamped" },
             in_words(highest.resolving_step_s, 3)
         )),

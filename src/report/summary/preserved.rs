@@ -43,7 +43,7 @@ pub(crate) fn write(page: &mut Page, preservation: &Preservation) {
         let text = format!(
             "{} Hz · explicit steps below {} s {}, {} s to follow it",
             number::quantity(highest.frequency_hz, 5),
-            number::scientific(highest.explicit_step_s, 2),
+            number::scientific(number::no_more_than(highest.explicit_step_s, 2), 2),
             if highest.is_damped { "damped" } else { "undamped" },
             number::scientific(highest.resolving_step_s, 2)
         );

@@ -1,11 +1,12 @@
 //! Frequencies of the reduced against the full model under the boundaries of the scene: M-24.
 
 use super::outcome::{BoundaryComparison, FrequencyPair};
-use super::reduced::{Quotient, quotients};
+use super::reduced::{Answers, Quotient, quotients};
 use super::reference::{ROUNDINGS, Reference};
 use crate::dense;
 use crate::eigen::{ModeError, zero};
 use crate::error::Result;
+use crate::number::counted;
 use crate::verification::check::{Check, Limits};
 use crate::verification::evidence::{Evidence, data_noise};
 
@@ -14,35 +15,39 @@ const MOST_EXCUSED: [f64; 2] = [1e-2, 1e-1];
 
 impl Reference {
     /// Largest relative difference of a frequency in the band, given the eigenvalues of a reduced model.
-    pub(super) fn worst_difference(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> f64 {
-        self.pairs(evidence, reduced, band_hz)
+    pub(super) fn worst_difference(&self, evidence: &Evidence<'_>, answers: &Answers, band_hz: [f64; 2]) -> f64 {
+        self.pairs(evidence, answers, band_hz)
             .iter()
             .filter(|pair| pair.in_band)
             .map(|pair| pair.relative_difference.abs())
             .fold(0.0, |worst, difference| if dense::worse(difference, worst) { difference } else { worst })
     }
 
-    fn pairs(&self, evidence: &Evidence<'_>, reduced: &[Quotient], band_hz: [f64; 2]) -> Vec<FrequencyPair> {
-        let pair = |(j, (full, error)): (usize, (&f64, &ModeError))| {
-            let scaling = &evidence.partition.scaling;
-            if reduced.get(j).is_some_and(|quotient| are_zero(*full, error, quotient)) {
-                return FrequencyPair::of_no_energy(scaling.hertz(error.zero_level), band_hz);
+    fn pairs(&self, evidence: &Evidence<'_>, answers: &Answers, band_hz: [f64; 2]) -> Vec<FrequencyPair> {
+        let hertz = |lambda: f64| evidence.partition.scaling.hertz(lambda);
+        let pair = |(j, at): (usize, &usize)| {
+            let (full, error, reduced) = (self.lambda[*at], &self.errors[*at], answers.found.get(j));
+            if reduced.is_some_and(|reduced| are_zero(full, error, reduced)) {
+                return FrequencyPair::of_no_energy(hertz(error.zero_level), band_hz);
             }
-            let full_hz = scaling.hertz(*full);
-            let reduced_hz = reduced.get(j).map_or(f64::INFINITY, |quotient| scaling.hertz(quotient.lambda));
-            FrequencyPair::new([full_hz, reduced_hz], error.bar_of(full_hz), band_hz)
+            let reduced_hz = reduced.map_or(f64::INFINITY, |quotient| hertz(quotient.lambda));
+            FrequencyPair::new([hertz(full), reduced_hz], error.bar_of(hertz(full)), band_hz)
         };
-        self.lambda.iter().zip(&self.errors).enumerate().map(pair).collect()
+        answers.asked.iter().enumerate().map(pair).collect()
     }
 
     pub(super) fn comparison(&self, evidence: &Evidence<'_>, band_hz: [f64; 2]) -> Result<BoundaryComparison> {
         let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
-        let reduced = quotients(evidence, self, k, m)?;
+        let answers = quotients(evidence, self, k, m)?;
+        let but = match self.lambda.len() - answers.asked.len() {
+            0 => String::new(),
+            n => format!(", without {} that nothing starts or sees", counted(n, "mode", "modes")),
+        };
         Ok(BoundaryComparison {
             boundary: self.boundary.name.clone(),
-            description: self.boundary.description.clone(),
-            frequencies: self.pairs(evidence, &reduced, band_hz),
-            worst_in_band: self.worst_difference(evidence, &reduced, band_hz),
+            description: format!("{}{but}", self.boundary.description),
+            frequencies: self.pairs(evidence, &answers, band_hz),
+            worst_in_band: self.worst_difference(evidence, &answers, band_hz),
             count: self.count,
         })
     }
@@ -66,11 +71,12 @@ pub(super) fn monotonicity(evidence: &Evidence<'_>, references: &[Reference]) ->
     let least = Limits { engineering: 1e-9, ..Limits::default() };
     let mut worst: (f64, [Limits; 2], Option<String>) = (0.0, [least; 2], None);
     for reference in references {
-        let quotients = quotients(evidence, reference, k, m)?;
-        let pairs = quotients.iter().zip(reference.lambda.iter().zip(&reference.errors)).enumerate();
-        for (j, (reduced, (full, error))) in
-            pairs.filter(|(_, (reduced, (full, error)))| !are_zero(**full, error, reduced))
-        {
+        let answers = quotients(evidence, reference, k, m)?;
+        for (at, reduced) in answers.asked.iter().zip(&answers.found) {
+            let (full, error) = (&reference.lambda[*at], &reference.errors[*at]);
+            if are_zero(*full, error, reduced) {
+                continue;
+            }
             let below = (1.0 - reduced.lambda / full).max(0.0);
             let terms = f64::EPSILON * error.cancellation + error.rounding_floor / full.abs();
             let rounding = ROUNDINGS * (terms + reduced.rounding);
@@ -81,7 +87,7 @@ pub(super) fn monotonicity(evidence: &Evidence<'_>, references: &[Reference]) ->
             };
             let limits = MOST_EXCUSED.map(|most| Limits { arithmetic, data, ..least }.capped(most, most));
             if dense::worse(below / limits[0].value(), worst.0 / worst.1[0].value()) {
-                worst = (below, limits, Some(format!("{}, mode {}", reference.boundary.name, j + 1)));
+                worst = (below, limits, Some(format!("{}, mode {}", reference.boundary.name, at + 1)));
             }
         }
     }

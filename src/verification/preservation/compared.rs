@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use crate::eigen::Spectral;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
 use crate::job::{Certify, Job};
@@ -23,7 +22,6 @@ use super::accuracy::Accuracy;
 use super::asked::Asked;
 use super::outcome::Preservation;
 use super::policy::{Motion, Plan, ResponseExtent};
-use super::shift::shift;
 use super::unmade::{Unmade, unmade_check};
 use super::{counts, interfaces, mac, response, sizes, statics};
 
@@ -110,10 +108,7 @@ impl Compared {
             (self.report.modes, self.report.mac) = (preserved.modes, preserved.mac);
         }
         // Damping is that of the same coordinates.
-        let (k, m) = (&own.reduction.stiffness, &own.reduction.mass);
-        let spectral = shift(own).and_then(|alpha| Spectral::of(k.as_ref(), m.as_ref(), alpha));
-        let highest = spectral.and_then(|spectral| sizes::highest(own, &spectral.of_rank(own.reduction.mass_rank())));
-        self.report.highest = self.kept("highest reduced frequency", highest)?.flatten();
+        self.report.highest = self.kept("highest reduced frequency", sizes::highest(own))?.flatten();
         Ok(())
     }
 

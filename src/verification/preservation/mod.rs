@@ -18,6 +18,7 @@
 
 mod accuracy;
 mod advice;
+mod answered;
 mod asked;
 mod boundaries;
 mod boundary;

@@ -15,6 +15,7 @@
 use faer::{Mat, MatRef};
 
 use super::super::evidence::{Evidence, coordinate_scales};
+use super::answered::{is_kept, n_left_out};
 use super::reference::Reference;
 use crate::dense;
 use crate::eigen::Spectral;
@@ -33,7 +34,15 @@ pub(super) struct Quotient {
     pub(super) uncoupled: f64,
 }
 
-/// The elastic eigenvalues that answer those of a reference, ascending: as many, or all there are. K̂ and M̂ may be cut down
+/// Eigenvalues of the full model with those of a reduced one, in their order.
+pub(super) struct Answers {
+    /// Numbers of the eigenvalues of the reference that are asked for, ascending.
+    pub(super) asked: Vec<usize>,
+    /// What answers each; fewer where the reduced model has no more.
+    pub(super) found: Vec<Quotient>,
+}
+
+/// The elastic eigenvalues that answer those of a reference, ascending: as many as it asks for, or all there are. K̂ and M̂ may be cut down
 /// to their leading coordinates.
 ///
 /// # Errors
@@ -43,18 +52,19 @@ pub(super) fn quotients(
     reference: &Reference,
     k: MatRef<'_, f64>,
     m: MatRef<'_, f64>,
-) -> Result<Vec<Quotient>> {
+) -> Result<Answers> {
+    let asked = reference.asked_of(evidence, k.nrows());
     let supported = Supported::new(evidence, reference, k, m);
     let mut found: Vec<Quotient> = Vec::new();
-    let mut taken = reference.passing_coordinates(supported.kept.len());
-    while let Some(first) = reference.lambda.get(found.len()) {
+    let mut taken = reference.passing_coordinates(&supported.kept, (supported.n_free, reference.boundary.held.len()));
+    while let Some(first) = asked.get(found.len()).map(|at| reference.lambda[*at]) {
         let mass_taken = dense::product(supported.mass.as_ref(), taken.as_ref());
         let stiffness = without(&supported.stiffness, &taken, &mass_taken);
-        let spectral = Spectral::of(stiffness.as_ref(), supported.mass.as_ref(), *first)?.of_rank(supported.mass_rank);
+        let spectral = Spectral::of(stiffness.as_ref(), supported.mass.as_ref(), first)?.of_rank(supported.mass_rank);
         let lambda = spectral.eigenvalues().split_off(taken.ncols().min(spectral.eigenvalues().len()));
         // Rounding may leave the first one of a near-mechanism below zero.
         let n_new = lambda.iter().take_while(|value| **value <= SPREAD * lambda[0].abs()).count();
-        let n_new = n_new.min(reference.lambda.len() - found.len());
+        let n_new = n_new.min(asked.len() - found.len());
         if n_new == 0 {
             break;
         }
@@ -66,10 +76,10 @@ pub(super) fn quotients(
         taken = dense::side_by_side(taken.as_ref(), x.as_ref());
     }
     found.sort_by(|a, b| a.lambda.total_cmp(&b.lambda));
-    Ok(found)
+    Ok(Answers { asked, found })
 }
 
-/// The reduced pencil without the dofs that are held, with its loads and springs.
+/// The reduced pencil as the superelement has it, without the dofs that are held, with its loads and springs.
 struct Supported {
     stiffness: Mat<f64>,
     mass: Mat<f64>,
@@ -87,7 +97,8 @@ impl Supported {
     fn new(evidence: &Evidence<'_>, reference: &Reference, k: MatRef<'_, f64>, m: MatRef<'_, f64>) -> Self {
         let boundary = &reference.boundary;
         let n_b = boundary.held.len();
-        let kept: Vec<usize> = (0..k.nrows()).filter(|i| *i >= n_b || !boundary.held[*i]).collect();
+        let moves = |i: &usize| *i >= n_b || !boundary.held[*i];
+        let kept: Vec<usize> = (0..k.nrows()).filter(moves).filter(|i| is_kept(evidence, *i)).collect();
         let part = |a: MatRef<'_, f64>| Mat::from_fn(kept.len(), kept.len(), |i, j| a[(kept[i], kept[j])]);
         let (mut stiffness, mut mass) = (part(k), part(m));
         let n_free = kept.partition_point(|i| *i < n_b);
@@ -98,7 +109,7 @@ impl Supported {
         let all = coordinate_scales(evidence);
         let scales = kept.iter().map(|i| all[*i]).collect();
         let n_loaded = kept[..n_free].iter().filter(|i| boundary.load[**i] > 0.0).count();
-        let mass_rank = evidence.reduction.mass_rank().map(|rank| rank + n_loaded);
+        let mass_rank = evidence.reduction.mass_rank().map(|rank| rank + n_loaded - n_left_out(evidence, k.nrows()));
         Self { stiffness, mass, kept, n_free, scales, mass_rank }
     }
 

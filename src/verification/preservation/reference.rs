@@ -90,10 +90,13 @@ impl Reference {
         self.passing.ncols()
     }
 
-    /// Rigid-body motions that the support lets pass, in the coordinates of a reduced model without the dofs that are held, n × n_zero.
-    pub(super) fn passing_coordinates(&self, n: usize) -> Mat<f64> {
+    /// Rigid-body motions that the support lets pass, in some coordinates of a reduced model of `n_b` interface dofs, `n_free` of which are first
+    /// and are not held, n × n_zero.
+    pub(super) fn passing_coordinates(&self, kept: &[usize], (n_free, n_b): (usize, usize)) -> Mat<f64> {
         let motions = &self.passing;
-        Mat::from_fn(n, motions.ncols(), |i, j| if i < motions.nrows() { motions[(i, j)] } else { 0.0 })
+        let row = |i: usize| if i < n_free { i } else { n_free + kept[i] - n_b };
+        let entry = |i: usize, j: usize| if row(i) < motions.nrows() { motions[(row(i), j)] } else { 0.0 };
+        Mat::from_fn(kept.len(), motions.ncols(), entry)
     }
 
     /// Why the full model was not solved under this boundary well enough to be compared with; the retained modes have M-01

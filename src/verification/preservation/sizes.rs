@@ -3,6 +3,7 @@
 use faer::Mat;
 
 use super::super::evidence::Evidence;
+use super::answered::{is_kept, n_left_out};
 use super::explicit_step::explicit_step;
 use super::leading::leading;
 use super::outcome::{HighestFrequency, SizeError};
@@ -73,7 +74,8 @@ pub(super) fn size_error(
     };
     let loads = response.and_then(|full| full.loads.as_ref());
     let internal_load_error = loads.map(|loads| loads.worst(n)).transpose()?;
-    Ok(SizeError { n_modes, n_reduced: n, frequency_error, response_error_db, internal_load_error })
+    let n_reduced = n - n_left_out(evidence, n);
+    Ok(SizeError { n_modes, n_reduced, frequency_error, response_error_db, internal_load_error })
 }
 
 fn is_mode(coordinate: &DynamicCoordinate) -> bool {
@@ -88,11 +90,17 @@ fn n_columns(evidence: &Evidence<'_>, n_modes: usize) -> usize {
     modes.map(|(at, _)| at).nth(n_modes).unwrap_or(coordinates.len())
 }
 
-/// The highest frequency of the reduced model with its interface free; none where a motion has no mass, which no step follows.
+/// The highest frequency of the superelement with its interface free; none where a motion has no mass, which no step follows.
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.
-pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Result<Option<HighestFrequency>> {
+pub(super) fn highest(evidence: &Evidence<'_>) -> Result<Option<HighestFrequency>> {
+    let n = evidence.reduction.n_reduced();
+    let kept: Vec<usize> = (0..n).filter(|at| is_kept(evidence, *at)).collect();
+    let of_file = |a: &Mat<f64>| dense::part(a.as_ref(), &kept);
+    let [k, m] = [&evidence.reduction.stiffness, &evidence.reduction.mass].map(of_file);
+    let rank = evidence.reduction.mass_rank().map(|rank| rank - n_left_out(evidence, n));
+    let reduced = Spectral::of(k.as_ref(), m.as_ref(), shift(evidence)?)?.of_rank(rank);
     let all = reduced.eigenvalues();
     // A mass of rigid-body motion alone has zero eigenvalues and no others.
     let n_zero = evidence.rigid.count() - evidence.rigid.n_massless;
@@ -105,7 +113,8 @@ pub(super) fn highest(evidence: &Evidence<'_>, reduced: &Spectral) -> Result<Opt
     let damped = match evidence.damping {
         Some(damping) => {
             let own = evidence.reduction.in_user_units(evidence.partition);
-            explicit_step([&own.stiffness, &own.mass, &damping.matrix].map(Mat::as_ref))?
+            let [k, m, c] = [&own.stiffness, &own.mass, &damping.matrix].map(of_file);
+            explicit_step([&k, &m, &c].map(Mat::as_ref))?
         }
         None => None,
     };
