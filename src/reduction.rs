@@ -15,7 +15,7 @@ use std::ops::Range;
 use faer::{Mat, MatRef};
 use supel_runtime::{MatrixKind, Symmetry};
 
-use crate::basis::Basis;
+use crate::basis::{Basis, DynamicCoordinate};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{elastic_scale, relief_scale};
 use crate::error::Result;
@@ -102,7 +102,7 @@ impl Reduction {
         let deforms = if rigid.count() == basis.n_reduced() { Deforms::Nowhere } else { Deforms::Somewhere };
         let rounding = (deforms == Deforms::Nowhere).then(|| clear_all(&mut stiffness, partition, basis));
         let mut measured = Projection {
-            stiffness_asymmetry: asymmetry(stiffness.as_ref(), &stiffness_sizes(&stiffness, partition)),
+            stiffness_asymmetry: asymmetry(stiffness.as_ref(), &stiffness_sizes(&stiffness, partition, basis)),
             mass_asymmetry: asymmetry(mass.as_ref(), &dense::diagonal(mass.as_ref())),
             ..Projection::default()
         };
@@ -332,12 +332,24 @@ fn uncouple(stiffness: &mut Mat<f64>, partition: &Partition) -> Worst {
 
 /// What the entries of K̂ are compared with in each row, whatever the units of the interface: K_BB,ii, and K̂_jj of modes. A mode by which
 /// nothing deforms has none of its own.
-fn stiffness_sizes(stiffness: &Mat<f64>, partition: &Partition) -> Vec<f64> {
+fn stiffness_sizes(stiffness: &Mat<f64>, partition: &Partition, basis: &Basis<'_>) -> Vec<f64> {
     let n_b = partition.n_interface();
-    let diagonal = dense::diagonal(stiffness.as_ref());
-    let largest = diagonal.iter().fold(0.0f64, |max, value| max.max(value.abs()));
-    let of_mode = |j: usize| if n_b == 0 { largest } else { diagonal[j] };
-    (0..diagonal.len()).map(|i| if i < n_b { uncondensed(partition, i) } else { of_mode(i) }).collect()
+    let of_modes = sizes_of_modes(stiffness.as_ref(), basis);
+    let largest = of_modes.iter().fold(0.0f64, |max, value| max.max(value.abs()));
+    let of_mode = |j: usize| if n_b == 0 { largest } else { of_modes[j] };
+    (0..stiffness.nrows()).map(|i| if i < n_b { uncondensed(partition, i) } else { of_mode(i - n_b) }).collect()
+}
+
+/// K̂_jj of the columns behind the interface. A rigid-body mode that leaves the interface at rest has rounding there: it gets the least of the
+/// elastic columns, which have unit modal mass as it has, or without them the largest of all.
+pub(crate) fn sizes_of_modes(stiffness: MatRef<'_, f64>, basis: &Basis<'_>) -> Vec<f64> {
+    let n_b = stiffness.nrows() - basis.coordinates.len();
+    let of = |j: usize| stiffness[(n_b + j, n_b + j)];
+    let is_rigid = |j: &usize| matches!(basis.coordinates[*j], DynamicCoordinate::RigidBody(_));
+    let columns = 0..basis.coordinates.len();
+    let elastic = columns.clone().filter(|j| !is_rigid(j)).map(of).reduce(f64::min);
+    let least = elastic.unwrap_or_else(|| columns.clone().map(of).fold(0.0, f64::max));
+    columns.map(|j| if is_rigid(&j) { of(j).max(least) } else { of(j) }).collect()
 }
 
 /// max |A − Aᵀ|_ij / √(s_i s_j).

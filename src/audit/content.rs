@@ -7,7 +7,8 @@ use supel_runtime::{Coordinate, Flag, Superelement};
 
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
-use crate::eigen::{eigenvalue_beyond, elastic_scale, relief_scale};
+use crate::eigen::massless::lifted;
+use crate::eigen::{ByInertia, eigenvalue_beyond, elastic_scale, relief_scale};
 use crate::error::Result;
 use crate::job::{Boundary, Job, MassOf, Method};
 use crate::plan::Plan;
@@ -24,6 +25,10 @@ pub(super) struct Content<'a> {
     pub(super) m: Mat<f64>,
     /// Û, r × n_r.
     pub(super) u: Mat<f64>,
+    /// The motions that Û spans, with inertia and without.
+    pub(super) motions: ByInertia,
+    /// K̂ that holds those without, in which the pencil would be singular.
+    pub(super) k_of_pencil: Mat<f64>,
     /// M_F, n_r × n_r.
     pub(super) m_f: Mat<f64>,
     /// Interface coordinates.
@@ -87,15 +92,22 @@ impl<'a> Content<'a> {
         let stated = kept.iter().copied().find(|lambda| *lambda > 0.0);
         let parts = (k.as_ref(), m.as_ref(), u.as_ref());
         let mass_rank = mass_rank(superelement);
+        let motions = ByInertia::of(parts)?;
+        let k_of_pencil = lifted(k.as_ref(), motions.massless.as_ref());
         let first = match (mass_rank, stated) {
             (Some(_), None) => relief_scale(parts, superelement.n_interface()).unwrap_or(1.0),
-            (_, stated) => first_elastic(parts, stated)?,
+            (_, stated) => match stated.map_or_else(|| elastic_scale(parts), |near| Ok(Some(near)))? {
+                Some(near) => eigenvalue_beyond(motions.massive.ncols(), (k_of_pencil.as_ref(), m.as_ref()), near)?,
+                None => 1.0,
+            },
         };
         let scale: Vec<f64> = (0..k.nrows()).map(|i| dense::power_of_two_root(k[(i, i)] + first * m[(i, i)])).collect();
         let n_modes = tensors.frequencies.len();
         Ok(Self {
             superelement,
             u,
+            motions,
+            k_of_pencil,
             m_f: unpacked(&tensors.rigid_body_mass),
             n_b: superelement.n_interface(),
             boundary: boundary(superelement),
@@ -163,6 +175,11 @@ impl<'a> Content<'a> {
     /// Whether its stiffness is said to be the tangent of a preloaded state, whose rigid-body modes lack rotations.
     pub(super) fn is_preloaded(&self) -> bool {
         self.superelement.metadata().flags.contains(&Flag::Preloaded)
+    }
+
+    /// How many rigid-body motions the pencil has at zero: those with inertia.
+    pub(super) fn n_massive(&self) -> usize {
+        self.motions.massive.ncols()
     }
 
     /// n_r.
@@ -339,10 +356,4 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
         (bar <= limits::UNKNOWN * frequency_hz).then_some(known)
     });
     limits::noise(known, first)
-}
-
-/// The first eigenvalue of the reduced pencil beyond its rigid-body modes, with its interface free; `near` is one of its modes.
-fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>), near: Option<f64>) -> Result<f64> {
-    let Some(near) = near.map_or_else(|| elastic_scale((k, m, u)), |near| Ok(Some(near)))? else { return Ok(1.0) };
-    eigenvalue_beyond(u.ncols(), (k, m), near)
 }

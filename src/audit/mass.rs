@@ -8,8 +8,8 @@ use super::content::Content;
 use super::rigid_motion::is_nearly_unit;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::partition::Partition;
-use crate::verification;
 use crate::verification::check::{Check, Limits};
+use crate::verification::{self, mass_difference};
 
 /// M-16: ÛᵀM̂Û against the rigid-body mass of the full model.
 pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {
@@ -18,25 +18,16 @@ pub(super) fn rigid_body_mass(content: &Content<'_>) -> Option<Check> {
     }
     let u = content.u.as_ref();
     let reduced = dense::gram(u, dense::product(content.m.as_ref(), u).as_ref());
-    let mut worst = (0.0, None);
-    for j in 0..content.n_rigid() {
-        for i in 0..content.n_rigid() {
-            let size = content.m_f[(i, i)].sqrt() * content.m_f[(j, j)].sqrt();
-            let error = (reduced[(i, j)] - content.m_f[(i, j)]).abs() / size;
-            if dense::worse(error, worst.0) {
-                worst = (error, Some(format!("rigid-body modes {} and {}", i + 1, j + 1)));
-            }
-        }
-    }
+    let (value, (i, j)) = mass_difference(reduced.as_ref(), content.m_f.as_ref());
     let limits = Limits { engineering: 1e-10, arithmetic: rounding(content), data: 0.0 }.capped(1e-6, 0.0);
     Some(Check {
         id: "M-16",
         name: "mass, centre and inertia are preserved",
         equation: "max |ÛᵀM̂Û − M_F|_ij / √(M_F,ii M_F,jj)",
-        value: worst.0,
+        value,
         limits,
         fail_above: 100.0 * limits.value(),
-        worst: worst.1,
+        worst: (value > 0.0).then(|| format!("rigid-body modes {} and {}", i + 1, j + 1)),
     })
 }
 

@@ -8,7 +8,7 @@ use super::flaw::flaw;
 use super::spectrum::Spectrum;
 use crate::dense;
 use crate::dofs::Direction;
-use crate::eigen::{Equilibrated, lowest_eigenpairs, zero};
+use crate::eigen::{Equilibrated, NO_MASS, lowest_eigenpairs, zero};
 use crate::error::Result;
 use crate::model::Site;
 use crate::verification::check::{Check, Limits};
@@ -95,13 +95,16 @@ pub(super) fn energy(content: &Content<'_>, spectrum: &Spectrum) -> Check {
     let elastic = spectrum.of_energies(content);
     let momenta = dense::product(content.m.as_ref(), content.u.as_ref());
     let forces = dense::product(content.k.as_ref(), content.u.as_ref());
+    let inertia = |j: usize| dense::dot(dense::column(content.u.as_ref(), j), dense::column(momenta.as_ref(), j));
+    let largest = (0..content.n_rigid()).map(inertia).fold(0.0, f64::max);
+    // What a motion without inertia costs has nothing to be compared with: its forces are looked at, in M-12.
+    let has_inertia = |j: &usize| content.motions.massless.ncols() == 0 || inertia(*j) > NO_MASS * largest;
     let mut worst = (0.0, None);
-    for j in 0..content.n_rigid() {
-        let u = dense::column(content.u.as_ref(), j);
+    for j in (0..content.n_rigid()).filter(has_inertia) {
+        let (u, inertia) = (dense::column(content.u.as_ref(), j), inertia(j));
         let energy = dense::dot(u, dense::column(forces.as_ref(), j));
-        let inertia = dense::dot(u, dense::column(momenta.as_ref(), j));
         let ratio = energy.abs() / (elastic * inertia);
-        // A motion without inertia is not a motion of a body.
+        // None that has none by its own account is told from rounding.
         let ratio = if inertia > 0.0 { ratio } else { f64::NAN };
         if dense::worse(ratio, worst.0) {
             worst = (ratio, Some(format!("rigid-body mode {}", j + 1)));
@@ -121,18 +124,19 @@ pub(super) fn energy(content: &Content<'_>, spectrum: &Spectrum) -> Check {
 
 /// M-12: with the rigid-body modes lifted to the first elastic eigenvalue no motion without energy is left.
 pub(super) fn zero_modes(content: &Content<'_>) -> Result<Check> {
-    let n_r = content.n_rigid();
-    let momenta = dense::product(content.m.as_ref(), content.u.as_ref());
-    let mut lifted = content.k.clone();
+    let (n_r, n_massive) = (content.n_rigid(), content.n_massive());
+    let motions = content.motions.massive.as_ref();
+    let momenta = dense::product(content.m.as_ref(), motions);
+    let mut lifted = content.k_of_pencil.clone();
     let mut is_independent = true;
-    if n_r > 0 {
-        let mut gram = dense::gram(content.u.as_ref(), momenta.as_ref());
+    if n_massive > 0 {
+        let mut gram = dense::gram(motions, momenta.as_ref());
         dense::symmetrise(&mut gram);
-        let d: Vec<f64> = (0..n_r).map(|i| dense::power_of_two_root(gram[(i, i)])).collect();
-        let scaled = Mat::from_fn(n_r, n_r, |i, j| gram[(i, j)] * d[i] * d[j]);
+        let d: Vec<f64> = (0..n_massive).map(|i| dense::power_of_two_root(gram[(i, i)])).collect();
+        let scaled = Mat::from_fn(n_massive, n_massive, |i, j| gram[(i, j)] * d[i] * d[j]);
         match scaled.llt(Side::Lower) {
             Ok(factor) => {
-                let mut half = Mat::from_fn(n_r, content.n_reduced(), |i, j| momenta[(j, i)] * d[i]);
+                let mut half = Mat::from_fn(n_massive, content.n_reduced(), |i, j| momenta[(j, i)] * d[i]);
                 let par = faer::Par::Seq;
                 faer::linalg::triangular_solve::solve_lower_triangular_in_place(factor.L(), half.as_mut(), par);
                 dense::add_product(lifted.as_mut(), content.first, half.transpose(), half.as_ref());

@@ -20,14 +20,15 @@ pub(super) struct Spectrum {
 
 impl Spectrum {
     pub(super) fn of(content: &Content<'_>) -> Result<Self> {
-        let (k, m) = (content.k.as_ref(), content.m.as_ref());
+        let (k, m) = (content.k_of_pencil.as_ref(), content.m.as_ref());
+        let n_zero = content.n_massive();
         let mut free = eigenvalues(k, m, content.first)?;
-        sharpen(&mut free, (k, m), content.first, content.n_rigid() + content.kept.len())?;
+        sharpen(&mut free, (k, m), content.first, n_zero + content.kept.len())?;
         let same_boundary = match content.boundary {
-            Boundary::FreeInterface => free.get(content.n_rigid()..).unwrap_or_default().to_vec(),
+            Boundary::FreeInterface => free.get(n_zero..).unwrap_or_default().to_vec(),
             Boundary::FixedInterface | Boundary::MixedInterface => {
                 let moving = content.moving();
-                let [k, m] = [k, m].map(|a| dense::part(a, &moving));
+                let [k, m] = [content.k.as_ref(), m].map(|a| dense::part(a, &moving));
                 let inner = (k.as_ref(), m.as_ref());
                 let n_zero = if content.boundary == Boundary::MixedInterface { content.n_passing()? } else { 0 };
                 // A heavy mass inside makes the held component far softer than the free one, whose first eigenvalue leaves it no digits.
@@ -44,8 +45,8 @@ impl Spectrum {
 impl Spectrum {
     /// What the energy of rigid-body motion is compared with: the first elastic eigenvalue, or the one beyond motions that are nearly free.
     pub(super) fn of_energies(&self, content: &Content<'_>) -> f64 {
-        match n_nearly_free(&self.free, content.n_rigid()) {
-            n_free if n_free > content.n_rigid() => self.free[n_free],
+        match n_nearly_free(&self.free, content.n_massive()) {
+            n_free if n_free > content.n_massive() => self.free[n_free],
             _ => content.first,
         }
     }

@@ -4,9 +4,9 @@ use faer::Mat;
 
 use super::motions::{Body, Motions};
 use crate::dense;
-use crate::eigen::zero;
+use crate::eigen::{NO_MASS, zero};
 use crate::error::Result;
-use crate::rigid::{NO_MASS, moving_directions};
+use crate::rigid::moving_directions;
 
 /// A motion by the coordinates is free when its energy stays below this many times the noise of the data. The noise bound adds all
 /// roundings with one sign; measured energies of exact rigid motions stay below it, so ten is generous.

@@ -81,7 +81,9 @@ pub fn compared(model: Model, held: &[Direction], tied: &TiedNodes) -> Result<Mo
     }
     let doubts = doubt::doubts(&motions, &nodes, held);
     let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts, tied)? };
-    let supports = if doubts.is_empty() { Supports::None } else { Supports::Perhaps };
+    // Rotations that rounding of the coordinates alone makes costly are no supports, where every translation passes.
+    let is_free = doubts.is_empty() || fit.rounded().is_some() && doubts.iter().all(|doubt| doubt.n_touched == 0);
+    let supports = if is_free { Supports::None } else { Supports::Perhaps };
     let mut findings = model.findings.clone();
     findings.extend(doubt::untested(&motions, &doubts));
     findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));

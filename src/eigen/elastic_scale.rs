@@ -2,7 +2,7 @@
 //! verification of its file alike.
 //!
 //! ```text
-//! D = diag(1/√M̂_ii)          powers of two
+//! D = diag(1/√(M̂_ii + K̂_ii/ρ))   powers of two, ρ a ratio of the two
 //! Z   r × (r − n_r)          orthonormal, Zᵀ D M̂ Û = 0
 //! Zᵀ M̂ Z y = θ Zᵀ K̂ Z y     λ₁ = 1 / max θ, each matrix scaled by D from both sides
 //! ```
@@ -13,8 +13,9 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 
 use super::dense_pencil::lowest_ratio;
+use super::massless::ByInertia;
 use super::spectral::{Spectral, scaled_by};
-use crate::dense::{self, NOISE_FACTOR};
+use crate::dense;
 use crate::error::Result;
 
 /// λ₁ of (K̂, M̂) beyond the rigid-body motions Û, r × n_r; none where K̂ lets other motions pass, or all.
@@ -23,10 +24,13 @@ use crate::error::Result;
 /// A dense eigenproblem that does not converge.
 pub(crate) fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>)) -> Result<Option<f64>> {
     let r = k.nrows();
-    let scale: Vec<f64> = (0..r).map(|i| dense::power_of_two_root(m[(i, i)])).collect();
+    let ByInertia { massive, massless } = ByInertia::of((k, m, u))?;
+    let scale = coordinate_scales(k, m, massive.as_ref());
     let (k, m) = (scaled_by(k, &scale), scaled_by(m, &scale));
-    let motions = Mat::from_fn(r, u.ncols(), |i, j| u[(i, j)] / scale[i]);
-    let taken = held_out(m.as_ref(), motions.as_ref());
+    let scaled = |motions: &Mat<f64>| Mat::from_fn(r, motions.ncols(), |i, j| motions[(i, j)] / scale[i]);
+    // What elastic motion is orthogonal to: the momenta of rigid-body motions, or of those without mass the motions themselves.
+    let momenta = dense::product(m.as_ref(), scaled(&massive).as_ref());
+    let taken = dense::side_by_side(momenta.as_ref(), scaled(&massless).as_ref());
     let taken = dense::orthonormal(taken.as_ref(), Mat::<f64>::identity(r, r).as_ref());
     let all = taken.qr().compute_Q();
     let z = all.as_ref().subcols(taken.ncols(), r - taken.ncols());
@@ -39,18 +43,17 @@ pub(crate) fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef
     Ok(spectral.and_then(|spectral| spectral.eigenvalues().first().copied()))
 }
 
-/// What elastic motion is orthogonal to: the momenta of rigid-body motions, or of those without mass the motions themselves.
-fn held_out(m: MatRef<'_, f64>, motions: MatRef<'_, f64>) -> Mat<f64> {
-    let mut momenta = dense::product(m, motions);
-    let terms = dense::product(dense::absolute(m).as_ref(), dense::absolute(motions).as_ref());
-    let rounding = NOISE_FACTOR * m.nrows() as f64 * f64::EPSILON;
-    for j in 0..motions.ncols() {
-        let norm = |a: &Mat<f64>| dense::norm(dense::column(a.as_ref(), j));
-        if norm(&momenta) <= rounding * norm(&terms) {
-            momenta.as_mut().col_mut(j).copy_from(motions.col(j));
-        }
-    }
-    momenta
+/// Powers of two near 1/√(M̂_ii + K̂_ii/ρ), ρ = min Σ K̂_ii w_i² / Σ M̂_ii w_i² over rigid-body motions with inertia. Of a rotation without
+/// inertia M̂_ii is what rounding squares leave, and of a node that alone holds the component K̂_ii is rounding: neither is a unit by itself.
+fn coordinate_scales(k: MatRef<'_, f64>, m: MatRef<'_, f64>, massive: MatRef<'_, f64>) -> Vec<f64> {
+    let r = k.nrows();
+    let sum = |a: MatRef<'_, f64>, j: usize| {
+        (0..r).map(|i| a[(i, i)].max(0.0) * massive[(i, j)] * massive[(i, j)]).sum::<f64>()
+    };
+    let ratios = (0..massive.ncols()).map(|j| sum(k, j) / sum(m, j));
+    let ratio = ratios.filter(|ratio| *ratio > 0.0 && ratio.is_finite()).reduce(f64::min);
+    let size = |i: usize| m[(i, i)].max(0.0) + ratio.map_or(0.0, |ratio| k[(i, i)].max(0.0) / ratio);
+    (0..r).map(|i| dense::power_of_two_root(size(i))).collect()
 }
 
 /// λ₁ where no mode tells it: by the pencil, or where that has no elastic motion by the ratios of its coordinates.

@@ -35,7 +35,7 @@ pub struct ModeError {
 impl ModeError {
     /// The error bar of a frequency, in its unit: half of what it is of λ.
     pub fn bar_of(&self, frequency: f64) -> f64 {
-        0.5 * self.relative_bar * frequency
+        0.5 * self.relative_bar * frequency.abs()
     }
 }
 

@@ -96,10 +96,11 @@ impl<'a> HeadReader<'a> {
         if !is_banner && is_comment(line) {
             return Ok(None);
         }
+        let as_written = line;
         let (path, line) = (self.path.to_owned(), self.n_lines + 1);
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let ["%%matrixmarket", object, format, field, symmetry] = words[..] else {
-            return Err(Error::MatrixBanner { path, line, found: excerpt(text.as_bytes()) });
+            return Err(Error::MatrixBanner { path, line, found: excerpt(as_written) });
         };
         let symmetries: &[&str] = match self.role {
             MatrixRole::Stiffness | MatrixRole::Mass => &["symmetric", "general"],

@@ -291,11 +291,16 @@ pub(super) fn missing(problem: &BoundaryProblem<'_>, modes: &Modes, upper: Elast
     if let Some(error) = below_zero(problem, modes) {
         return error;
     }
-    Error::ModesMissing {
-        below_hz: problem.component.partition.scaling.hertz(sigma),
-        found: modes.n_between(f64::NEG_INFINITY, sigma) + n_rigid,
-        counted: upper.n_elastic + n_rigid,
+    let partition = problem.component.partition;
+    let below_hz = partition.scaling.hertz(sigma);
+    let [found, counted] = [modes.n_between(f64::NEG_INFINITY, sigma), upper.n_elastic].map(|n| n + n_rigid);
+    // None is missing: a motion that is free as far as few digits tell is one by itself, and not with the rounding of the others.
+    if found > counted && partition.has_few_digits() {
+        let what =
+            format!("how many modes lie below {below_hz:.6} Hz: {found} were found, and a Sturm count says {counted}");
+        return Error::DigitsTooFew { what, known: partition.precision.stiffness.in_words() };
     }
+    Error::ModesMissing { below_hz, found, counted }
 }
 
 /// Searches an interval with a shift inside it, by an eigensolver and from the start vectors of a seed.

@@ -5,12 +5,13 @@
 //! Entries are summed to twice the working precision and rounded once. A large mass away from the node of its patch makes terms m r² that
 //! hundreds of others are added to: an ulp of it at each of them is more than the smallest inertia of the patch can bear.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::transformation_row::TransformationRow;
+use crate::dense::NOISE_FACTOR;
 use crate::sparse::{RowStorage, SparseMatrix, filled};
 use crate::twofold::{Twofold, exact_product};
 
@@ -168,9 +169,8 @@ fn symmetrise(RowStorage { pointers, indices, values }: &mut RowStorage, moved: 
     }
 }
 
-/// The largest (|T|ᵀ|A||T|)_ii / (TᵀAT)_ii: how much larger the terms of the stiffness of a dof that others follow are than their sum.
-/// Rounding of the data reaches its row enlarged by this factor.
-pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transformation: &Transformation) -> f64 {
+/// (|T|ᵀ|A||T|)_ii of the dofs that others follow: the terms of their stiffness, whatever is left of their sum.
+pub(super) fn terms(matrix: &SparseMatrix, transformation: &Transformation) -> BTreeMap<u32, f64> {
     let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
     let followed = transformation.followed();
     let takes_part = |row: usize| match &transformation.rows[row] {
@@ -188,11 +188,40 @@ pub(super) fn cancellation(matrix: &SparseMatrix, product: &SparseMatrix, transf
             }
         }
     }
-    let ratio = |(dof, sum): (u32, f64)| {
-        let left = product.get(dof as usize, dof as usize).copied().unwrap_or(0.0);
+    sums
+}
+
+/// The largest (|T|ᵀ|A||T|)_ii / (TᵀAT)_ii: how much larger the terms of the stiffness of a dof that others follow are than their sum.
+/// Rounding of the data reaches its row enlarged by this factor.
+pub(super) fn cancellation(product: &SparseMatrix, terms: &BTreeMap<u32, f64>) -> f64 {
+    let ratio = |(dof, sum): (&u32, &f64)| {
+        let left = product.get(*dof as usize, *dof as usize).copied().unwrap_or(0.0);
         if left > 0.0 { sum / left } else { 1.0 }
     };
-    sums.into_iter().map(ratio).fold(1.0, f64::max)
+    terms.iter().map(ratio).fold(1.0, f64::max)
+}
+
+/// TᵀAT with zero in the rows and columns of dofs that move the component as a whole: what rounding left there of `terms` is no stiffness, and no
+/// size of anything. An average over all nodes of a free model has six of them.
+///
+/// A row is rounding where every entry of it is, |TᵀAT|_ij ≤ c ε √(t_i t_j): entries of A are rounded to ε, and their terms add up to no more
+/// than that root.
+pub(super) fn without_rounding(mut product: SparseMatrix, terms: &BTreeMap<u32, f64>) -> SparseMatrix {
+    let own = |dof: usize| product.get(dof, dof).copied().unwrap_or(0.0);
+    let size = |dof: usize| terms.get(&(dof as u32)).copied().unwrap_or_else(|| own(dof));
+    let is_rounding = |dof: &usize| {
+        let least = |col: usize| NOISE_FACTOR * f64::EPSILON * (size(*dof) * size(col)).sqrt();
+        own(*dof).abs() <= least(*dof)
+            && product.outer_view(*dof).is_some_and(|row| row.iter().all(|(col, value)| value.abs() <= least(col)))
+    };
+    let cleared: BTreeSet<usize> = terms.keys().map(|dof| *dof as usize).filter(is_rounding).collect();
+    if !cleared.is_empty() {
+        for (row, mut entries) in product.outer_iterator_mut().enumerate() {
+            let is_cleared = |col: usize| cleared.contains(&row) || cleared.contains(&col);
+            entries.iter_mut().filter(|(col, _)| is_cleared(*col)).for_each(|(_, value)| *value = 0.0);
+        }
+    }
+    product
 }
 
 #[cfg(test)]

@@ -118,8 +118,10 @@ impl Carried {
         precision: Precision,
         turned: impl FnOnce(SparseMatrix) -> Result<SparseMatrix>,
     ) -> Result<Self> {
+        let terms = congruence::terms(&stiffness, transformation);
         let of_partition = turned(congruence::congruence(&stiffness, transformation))?;
-        let cancellation = congruence::cancellation(&stiffness, &of_partition, transformation);
+        let of_partition = congruence::without_rounding(of_partition, &terms);
+        let cancellation = congruence::cancellation(&of_partition, &terms);
         let patches = PatchEntries::of(&stiffness, transformation, precision.stiffness);
         drop(stiffness);
         let mass_patches = PatchEntries::of(&mass, transformation, precision.mass);

@@ -8,7 +8,7 @@ use super::preload;
 use super::rank::scales;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::zero;
+use crate::eigen::{NO_MASS, zero};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, whole_count};
 use crate::model::{Bodies, Frame, Site};
@@ -18,9 +18,6 @@ use crate::sparse::{SparseMatrix, absolute_energy, energies_of_terms, product, p
 /// Singular values of a body's six unit motions, relative to the largest, below which the motion moves no dof (rotation
 /// of a straight row of translations about its own axis): a thousand times rounding, far below any real thickness.
 const NO_DISPLACEMENT: f64 = 1e-11;
-/// Modal masses relative to the largest below which a rigid motion has no inertia: the square of the rounding that the
-/// direction of the motion carries, with a factor of ten thousand. A real one may be small next to a seismic mass.
-pub(crate) const NO_MASS: f64 = 1e-24;
 /// Modal masses relative to their terms that are rounding of the sums, where masses between bodies cancel those of the bodies.
 const MASS_OF_ROUNDING: f64 = NOISE_FACTOR * f64::EPSILON;
 

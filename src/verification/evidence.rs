@@ -11,7 +11,7 @@ use crate::factor::Cholesky;
 use crate::job::Expectation;
 use crate::modes::{Certificate, Retained};
 use crate::partition::Partition;
-use crate::reduction::{Reduction, transpose_apply};
+use crate::reduction::{Reduction, sizes_of_modes, transpose_apply};
 use crate::rigid::{InterfaceRank, RigidBodyModes};
 use crate::rubin::Rubin;
 use crate::sparse::product;
@@ -119,7 +119,8 @@ pub(super) fn share_of_data(partition: &Partition) -> f64 {
     precision / (f64::EPSILON + precision)
 }
 
-/// Scales of the reduced coordinates, powers of two: near 1/√K_BB,ii for an interface dof and near 1/√K̂_ηη,ii for a mode.
+/// Scales of the reduced coordinates, powers of two: near 1/√K_BB,ii for an interface dof and near 1/√K̂_ηη,ii for a mode, with what stands
+/// for it where a rigid-body mode has none.
 ///
 /// The stiffness of an interface dof before condensation is what rounding of K̂_BB is relative to. What condensation
 /// leaves of it may be nothing: an interface that just holds the component has K̂_BB = 0.
@@ -127,7 +128,8 @@ pub(super) fn coordinate_scales(evidence: &Evidence<'_>) -> Vec<f64> {
     let (partition, k) = (evidence.partition, &evidence.reduction.stiffness);
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
     let uncondensed = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-    (0..k.nrows()).map(|i| dense::power_of_two_root(if i < n_b { uncondensed(i) } else { k[(i, i)] })).collect()
+    let of_modes = sizes_of_modes(k.as_ref(), evidence.basis);
+    (0..k.nrows()).map(|i| dense::power_of_two_root(if i < n_b { uncondensed(i) } else { of_modes[i - n_b] })).collect()
 }
 
 /// The norms of the reduced pencil that backward errors are relative to; that of K̂ is at least that of its terms before

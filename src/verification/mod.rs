@@ -43,3 +43,4 @@ pub(crate) use penalty::LARGEST_OF_MESHES;
 pub use penalty::{Penalties, penalties};
 pub use preservation::{Compared, fewest_modes, preservation, preservation_of_file};
 pub use rigid_body::MassRoutes;
+pub(crate) use rigid_body::mass_difference;

@@ -13,7 +13,7 @@ use super::check::{Check, Limits};
 use super::evidence::{Evidence, coordinate_scales, rigid_name};
 use super::spectrum::{Spectrum, zero_level};
 use crate::dense;
-use crate::eigen::scaled_by;
+use crate::eigen::{NO_MASS, scaled_by};
 use crate::error::Result;
 
 /// M_F by each route, in scaled units.
@@ -61,18 +61,22 @@ fn null_space_motions(evidence: &Evidence<'_>) -> Result<Mat<f64>> {
     Ok(Mat::from_fn(n_b, u_b.ncols(), |i, j| projected[(i, j)] * scales[i]))
 }
 
-/// Inertia relative to the largest below which a motion has none: the square of the rounding of its direction.
-const NO_INERTIA: f64 = 1e-24;
-
 /// The largest |A − B|_ij / √(B_ii B_jj), and its entry.
-pub(super) fn mass_difference(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> (f64, (usize, usize)) {
+///
+/// A straight beam of lumped masses turns about its axis without inertia: there is nothing to compare then, and any inertia that either
+/// matrix has above that share of the largest is a difference without limit.
+pub(crate) fn mass_difference(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> (f64, (usize, usize)) {
     let mut worst = (0.0, (0, 0));
-    let largest = (0..b.ncols()).fold(0.0f64, |max, i| max.max(b[(i, i)]));
-    // A straight beam of lumped masses turns about its axis without inertia: there is nothing to compare.
-    let has_inertia = |i: &usize| b[(*i, *i)] > NO_INERTIA * largest;
-    for j in (0..b.ncols()).filter(has_inertia) {
-        for i in (0..=j).filter(has_inertia) {
-            let error = (a[(i, j)] - b[(i, j)]).abs() / (b[(i, i)] * b[(j, j)]).sqrt();
+    let least = NO_MASS * (0..b.ncols()).fold(0.0f64, |max, i| max.max(b[(i, i)]));
+    let has_inertia = |i: usize| b[(i, i)] > least;
+    for j in 0..b.ncols() {
+        for i in 0..=j {
+            let difference = (a[(i, j)] - b[(i, j)]).abs();
+            let error = match has_inertia(i) && has_inertia(j) {
+                true => difference / (b[(i, i)] * b[(j, j)]).sqrt(),
+                false if difference.powi(2) <= b[(i, i)].max(least) * b[(j, j)].max(least) => 0.0,
+                false => f64::INFINITY,
+            };
             if dense::worse(error, worst.0) {
                 worst = (error, (i, j));
             }

@@ -315,3 +315,83 @@ fn chains_of_near_frequencies_far_above_the_others_are_counted_alike() {
         assert_eq!(n_modes, expected, "{within:e}, {rest}");
     }
 }
+
+/// A job by its text, reduced and verified in both ways.
+#[track_caller]
+fn agree_by_job(model: &Model, of_reduction: &str) -> Place {
+    let place = Place::with(model);
+    let files = "model = { stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }";
+    let job = format!("{files}\nwrite = {{ superelement = \"x.supel\" }}\n{of_reduction}\n");
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
+    supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
+    place
+}
+
+/// A straight beam of lumped masses turns about its axis without energy and without inertia, whatever its direction is and how many elements it
+/// has: what rounding leaves of that inertia is none for the file as for the model.
+#[test]
+fn straight_beams_of_lumped_masses_agree() {
+    for (n, axis) in [1, 2, 10].into_iter().flat_map(|n| [(n, [1.0, 0.0, 0.0]), (n, [0.6, 0.64, 0.48])]) {
+        let nodes: Vec<[f64; 3]> = (0..=n).map(|i| axis.map(|cosine| 0.1 * f64::from(i) * cosine)).collect();
+        let edges: Vec<[usize; 2]> = (0..n as usize).map(|i| [i, i + 1]).collect();
+        let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::LumpedTranslations);
+        for method in ["guyan", "craig-bampton --modes 3"] {
+            let place = Place::with(&model);
+            let ends = format!("--interface a=1 --interface b={}", n + 1);
+            agree(&place, &place.model_flags(), &format!("{ends} --method {method}"));
+        }
+    }
+}
+
+/// Rotations without inertia of a frame that is not straight: M̂ is singular, and what rounding squared leaves on its diagonal is no unit of
+/// anything.
+#[test]
+fn a_frame_of_lumped_masses_agrees() {
+    let nodes = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.8],
+        [1.0, 0.0, 0.8],
+        [1.0, 1.0, 0.8],
+        [0.0, 1.0, 0.8],
+        [0.5, 0.5, 0.9],
+        [0.5, 0.52, 1.2],
+    ];
+    let edges: Vec<[usize; 2]> = (0..4)
+        .flat_map(|i| [[i, (i + 1) % 4], [i, i + 4], [i + 4, (i + 1) % 4 + 4], [i + 4, 8]])
+        .chain([[8, 9]])
+        .collect();
+    let model = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::LumpedTranslations);
+    let place = Place::with(&model);
+    let feet = "--interface a=1 --interface b=2 --interface c=3 --interface d=4 --interface e=5 --interface f=6";
+    agree(&place, &place.model_flags(), &format!("{feet} --method guyan"));
+}
+
+/// The mean motion of all nodes moves the component as a whole: nothing of its stiffness is left there but rounding, which is no size.
+#[test]
+fn an_average_over_all_nodes_agrees() {
+    let zigzag: Vec<[f64; 3]> =
+        (0..8).map(|i| [0.12 * f64::from(i), 0.03 * f64::from(i % 3), 0.05 * f64::from(i % 2)]).collect();
+    let edges: Vec<[usize; 2]> = (0..7).map(|i| [i, i + 1]).collect();
+    let chain = frame(&zigzag, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    let all = "[1, 2, 3, 4, 5, 6, 7, 8]";
+    for method in ["craig-bampton", "herting"] {
+        let interface = format!("interface = [{{ name = \"mean\", nodes = {all}, coupling = \"average\" }}]");
+        let reduction = format!("reduction = {{ method = \"{method}\", modes = {{ count = 3 }} }}");
+        agree_by_job(&chain, &format!("{interface}\n{reduction}"));
+    }
+}
+
+/// An interface that a unit translation leaves at rest: the amplitude of that motion has no stiffness, and its rounding is no size.
+#[test]
+fn rubin_where_the_interface_leaves_a_translation_alone_agrees() {
+    let model = brick([2, 1, 1], [0.2, 0.1, 0.1], &Material::STEEL_SI);
+    for (nodes, dofs) in [("[1]", "[\"ux\", \"uy\"]"), ("[1]", "[\"uy\"]"), ("[1, 5, 9]", "[\"uy\"]")] {
+        let interface = format!("interface = [{{ name = \"i\", nodes = {nodes}, dofs = {dofs} }}]");
+        agree_by_job(&model, &format!("{interface}\nreduction = {{ method = \"rubin\", modes = {{ count = 4 }} }}"));
+    }
+}

@@ -18,6 +18,7 @@ use super::projection::Projected;
 use super::scaled::Scaled;
 use crate::audit::named_modes::{WithInverse, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::NO_MASS;
 
 /// Weight of recovered rows and further matrices relative to all others: in single precision they have seven digits, which may decide on what nothing else
 /// sees and on nothing more.
@@ -139,7 +140,10 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
     let of_mine = |a: &Mat<f64>| a.as_ref().subcols(p, n_named).to_owned();
     let mut pairs: Vec<[Mat<f64>; 2]> = Vec::new();
     let mut add = |weight: f64, pair: [Mat<f64>; 2]| pairs.push(pair.map(|a| a * faer::Scale(weight)));
-    let inertia = |j: usize| projected.mass.matrix[(j, j)].max(f64::MIN_POSITIVE).sqrt();
+    let [stiffness, mass] = [&projected.stiffness, &projected.mass].map(|form| |j: usize| form.matrix[(j, j)].max(0.0));
+    let softest = (0..p).map(|j| mass(j) / stiffness(j)).filter(|ratio| ratio.is_finite()).fold(0.0, f64::max);
+    // A rotation without inertia has what rounding squares leave, and divided by that its rounding would be all that is seen.
+    let inertia = |j: usize| mass(j).max(NO_MASS * softest * stiffness(j)).max(f64::MIN_POSITIVE).sqrt();
     let coupling = dense::product(projected.probes.transpose(), file.m.as_ref().subrows(0, file.n_b));
     let weighted = |a: Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / inertia(i));
     let known = projected.reduced_mass().matrix.as_ref().submatrix(0, p, p, n_named).to_owned();

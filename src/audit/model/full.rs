@@ -1,13 +1,14 @@
 //! The full model by a factor of K − σM on all its dofs: which motions are free, and the first elastic eigenvalue.
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
-use crate::eigen::{Shifted, shifted, zero};
+use crate::dense;
+use crate::eigen::{ModalProblem, Shifted, shifted, zero};
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky};
 use crate::partition::Partition;
 use crate::rigid::{RigidBodyModes, RigidEnergy, RigidSource};
-use crate::sparse::product;
+use crate::sparse::{SparseMatrix, diagonal, product};
 
 /// The full model with a factor of K − σM on all dofs.
 pub(super) struct Full<'a> {
@@ -32,7 +33,9 @@ impl<'a> Full<'a> {
     /// # Errors
     /// K − σM is not definite; the eigensolver fails.
     pub(super) fn new(partition: &'a Partition, analysis: &'a Analysis, given: &RigidBodyModes) -> Result<Self> {
-        let problem = partition.free_problem().knowing_free(by_coordinates(given));
+        let pinned = pinned(&partition.stiffness, given.massless());
+        let problem = ModalProblem { stiffness: (&pinned).into(), ..partition.free_problem() };
+        let problem = problem.knowing_free(by_coordinates(given));
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
         let n_zero = confirmed(&found, given);
         let (shapes, elastic) = found.lowest.shapes.as_ref().split_at_col(n_zero);
@@ -40,10 +43,12 @@ impl<'a> Full<'a> {
         let first = found.lowest.lambda[n_zero..].iter().copied().reduce(f64::min).or(found.lowest.next).unwrap_or(1.0);
         let looked_at = &found.lowest.errors[..found.lowest.count().min(n_zero + 1)];
         let noise = looked_at.iter().map(|error| error.zero_level / first).fold(0.0, f64::max);
+        let shapes = dense::side_by_side(shapes.as_ref(), given.massless());
         let zero = RigidBodyModes {
             modes: shapes.clone(),
             mass_orthonormal: product(&partition.mass, shapes.as_ref()),
             orthonormal: shapes,
+            n_massless: given.n_massless,
             source: RigidSource::Algebraic,
             energy: RigidEnergy { angle: noise, ..RigidEnergy::default() },
             ..RigidBodyModes::none(partition.n_dofs())
@@ -52,9 +57,29 @@ impl<'a> Full<'a> {
     }
 }
 
-/// How many motions are free by coordinates.
+/// K with some dofs held by a spring each, as many as there are motions without energy and mass. K − σM has no factor with such motions, and a
+/// spring in the way of each changes nothing but them: whatever has no momentum along them leaves the spring at rest.
+fn pinned(stiffness: &SparseMatrix, massless: MatRef<'_, f64>) -> SparseMatrix {
+    let (mut pinned, mut left) = (stiffness.clone(), massless.to_owned());
+    let sizes: Vec<f64> = diagonal(stiffness).iter().map(|size| size.max(0.0).sqrt()).collect();
+    for j in 0..left.ncols() {
+        let reach = |i: &usize| left[(*i, j)].abs() * sizes[*i];
+        let Some(at) = (0..left.nrows()).max_by(|a, b| reach(a).total_cmp(&reach(b))) else { break };
+        if let Some(entry) = pinned.get_mut(at, at) {
+            *entry *= 2.0;
+        }
+        // The others are taken without what they move there.
+        for other in j + 1..left.ncols() {
+            let share = left[(at, other)] / left[(at, j)];
+            (0..left.nrows()).for_each(|i| left[(i, other)] -= share * left[(i, j)]);
+        }
+    }
+    pinned
+}
+
+/// How many motions with mass are free by coordinates.
 fn by_coordinates(given: &RigidBodyModes) -> usize {
-    if given.source == RigidSource::Geometric { given.count() } else { 0 }
+    if given.source == RigidSource::Geometric { given.count() - given.n_massless } else { 0 }
 }
 
 /// How many modes are zero: by their own levels, or as many as the coordinates say where none of those is above the largest level, which

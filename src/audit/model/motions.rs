@@ -7,12 +7,14 @@ use super::full::Full;
 use super::scaled::Scaled;
 use crate::audit::mass::is_of_a_body;
 use crate::dense::{self, NOISE_FACTOR};
+use crate::eigen::NO_MASS;
 use crate::rigid::{RigidBodyModes, RigidSource};
 use crate::sparse::energies_of_terms;
 use crate::sparse::product_and_terms;
 use crate::sparse::{absolute_energy, diagonal};
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
+use crate::verification::mass_difference;
 
 /// The most that roundings of K excuse of its zero modes: one that may be any other motion is compared with nothing, and the file's are
 /// held to the coordinates instead.
@@ -22,8 +24,12 @@ const SAME_COORDINATES: f64 = 1e-14;
 
 /// What the full model says of its rigid-body motion.
 pub(super) struct KnownMotions {
-    /// Zero modes of K, by inverse iteration.
+    /// Zero modes of K, by inverse iteration, and those that have no mass either.
     pub(super) n_zero: usize,
+    /// How many of them, the last, have no mass.
+    n_massless: usize,
+    /// The first elastic eigenvalue.
+    first: f64,
     /// Q_B of the zero modes, n_B × n_r.
     zero: Mat<f64>,
     /// X_B of the first elastic modes of unit modal mass, n_B × k.
@@ -95,6 +101,8 @@ impl KnownMotions {
         });
         Self {
             n_zero,
+            n_massless: full.zero.n_massless,
+            first: full.first,
             zero: full.zero.orthonormal.as_ref().subrows(n_i, n_b).to_owned(),
             elastic: full.elastic.as_ref().subrows(n_i, n_b).to_owned(),
             unit,
@@ -155,7 +163,7 @@ impl KnownMotions {
 
     /// Motions of the file from the zero modes, A with Û_B = Q_B A, n_r × n_r; and what is left over.
     pub(super) fn combination(&self, file: &Scaled) -> (Mat<f64>, f64) {
-        let [q, u] = [self.zero.as_ref(), file.u.as_ref().subrows(0, file.n_b)].map(|a| by_inertia(file, a));
+        let [q, u] = [self.zero.as_ref(), file.u.as_ref().subrows(0, file.n_b)].map(|a| self.by_inertia(file, a));
         let combination = q.qr().solve_lstsq(&u);
         let mut left = u.clone();
         dense::add_product(left.as_mut(), -1.0, q.as_ref(), combination.as_ref());
@@ -163,10 +171,18 @@ impl KnownMotions {
         (combination, dense::worst((0..u.ncols()).map(ratio)))
     }
 
+    /// Rows of the interface weighted by inertia, so that translations and rotations count alike. Where a motion has none the stiffness, over
+    /// the first elastic eigenvalue, stands next to it: rows of that motion alone would count for nothing.
+    fn by_inertia(&self, file: &Scaled, a: MatRef<'_, f64>) -> Mat<f64> {
+        let of_stiffness = |i: usize| if self.n_massless > 0 { file.k[(i, i)].max(0.0) / self.first } else { 0.0 };
+        let weight = |i: usize| (file.m[(i, i)].max(0.0) + of_stiffness(i)).sqrt();
+        Mat::from_fn(a.nrows(), a.ncols(), |i, j| weight(i) * a[(i, j)])
+    }
+
     /// What a zero mode that is turned by a unit angle towards an elastic one is off by, seen from the interface: max ‖Q_B⁺X_B‖. Next to a
     /// heavy mass a zero mode hardly moves, and an elastic one does.
     fn swing(&self, file: &Scaled) -> f64 {
-        let [q, x] = [&self.zero, &self.elastic].map(|a| by_inertia(file, a.as_ref()));
+        let [q, x] = [&self.zero, &self.elastic].map(|a| self.by_inertia(file, a.as_ref()));
         let seen = q.qr().solve_lstsq(&x);
         (0..seen.ncols()).map(|j| dense::norm(dense::column(seen.as_ref(), j))).fold(1.0, f64::max)
     }
@@ -174,7 +190,7 @@ impl KnownMotions {
     /// By how much more than zero modes elastic ones move the interface, beyond what looks like zero modes there: what M-05 sees of a turn of a
     /// zero mode by a unit angle. Soft rotations of interface nodes of their own are more than motions of the whole.
     fn in_view(&self, file: &Scaled) -> f64 {
-        let [q, x] = [&self.zero, &self.elastic].map(|a| by_inertia(file, a.as_ref()));
+        let [q, x] = [&self.zero, &self.elastic].map(|a| self.by_inertia(file, a.as_ref()));
         let mut left = x.clone();
         dense::add_product(left.as_mut(), -1.0, q.as_ref(), q.qr().solve_lstsq(&x).as_ref());
         let length = |a: &Mat<f64>, j: usize| dense::norm(dense::column(a.as_ref(), j));
@@ -205,7 +221,8 @@ impl KnownMotions {
         if !file.has_mass {
             return checks;
         }
-        let inertia = dense::gram(combination.as_ref(), combination.as_ref());
+        let massive = combination.as_ref().subrows(0, self.n_zero - self.n_massless);
+        let inertia = dense::gram(massive, massive);
         let (value, worst) = difference(&file.m_f, &inertia);
         let swing = self.swing(file);
         let arithmetic = turned.arithmetic.max(self.of_products) * swing;
@@ -227,11 +244,6 @@ impl KnownMotions {
 /// The largest |q|ᵀ|M||q| of the zero modes, which have unit mass.
 fn mass_terms(full: &Full<'_>) -> f64 {
     absolute_energy(&full.partition.mass, full.zero.orthonormal.as_ref()).into_iter().fold(1.0, f64::max)
-}
-
-/// Rows of the interface weighted by inertia, so that translations and rotations count alike.
-fn by_inertia(file: &Scaled, a: MatRef<'_, f64>) -> Mat<f64> {
-    Mat::from_fn(a.nrows(), a.ncols(), |i, j| file.m[(i, i)].max(0.0).sqrt() * a[(i, j)])
 }
 
 impl UnitMotions {
@@ -260,8 +272,9 @@ impl UnitMotions {
             return vec![of_coordinates];
         }
         let (value, worst) = difference(&file.m_f, &self.mass);
-        let share = |j: usize| self.terms[j] / self.mass[(j, j)];
-        let terms = (0..self.terms.len()).map(share).fold(1.0, f64::max);
+        let least = NO_MASS * (0..self.terms.len()).fold(0.0f64, |max, j| max.max(self.mass[(j, j)]));
+        let with_mass = (0..self.terms.len()).filter(|j| self.mass[(*j, *j)] > least);
+        let terms = with_mass.map(|j| self.terms[j] / self.mass[(j, j)]).fold(1.0, f64::max);
         let limits = Limits { engineering: 1e-13, arithmetic: NOISE_FACTOR * f64::EPSILON * terms, data: 0.0 };
         let inertia = Check {
             id: "M-16",
@@ -278,15 +291,6 @@ impl UnitMotions {
 
 /// max |A − B|_ij / √(B_ii B_jj), and where.
 fn difference(found: &Mat<f64>, expected: &Mat<f64>) -> (f64, Option<String>) {
-    let mut worst = (0.0, None);
-    for j in 0..expected.ncols() {
-        for i in 0..=j {
-            let size = (expected[(i, i)] * expected[(j, j)]).sqrt();
-            let error = (found[(i, j)] - expected[(i, j)]).abs() / size;
-            if dense::worse(error, worst.0) {
-                worst = (error, Some(format!("rigid-body modes {} and {}", i + 1, j + 1)));
-            }
-        }
-    }
-    worst
+    let (value, (i, j)) = mass_difference(found.as_ref(), expected.as_ref());
+    (value, (value > 0.0).then(|| format!("rigid-body modes {} and {}", i + 1, j + 1)))
 }

@@ -1,9 +1,10 @@
 //! Frequencies of the reduced against the full model under the boundaries of the scene: M-24.
 
 use super::outcome::{BoundaryComparison, FrequencyPair};
-use super::reduced::{Answers, quotients};
+use super::reduced::{Answers, Quotient, quotients};
 use super::reference::{ROUNDINGS, Reference};
 use crate::dense;
+use crate::eigen::{ModeError, zero};
 use crate::error::Result;
 use crate::number::counted;
 use crate::verification::check::{Check, Limits};
@@ -25,9 +26,12 @@ impl Reference {
     fn pairs(&self, evidence: &Evidence<'_>, answers: &Answers, band_hz: [f64; 2]) -> Vec<FrequencyPair> {
         let hertz = |lambda: f64| evidence.partition.scaling.hertz(lambda);
         let pair = |(j, at): (usize, &usize)| {
-            let full_hz = hertz(self.lambda[*at]);
-            let reduced_hz = answers.found.get(j).map_or(f64::INFINITY, |quotient| hertz(quotient.lambda));
-            FrequencyPair::new([full_hz, reduced_hz], self.errors[*at].bar_of(full_hz), band_hz)
+            let (full, error, reduced) = (self.lambda[*at], &self.errors[*at], answers.found.get(j));
+            if reduced.is_some_and(|reduced| are_zero(full, error, reduced)) {
+                return FrequencyPair::of_no_energy(hertz(error.zero_level), band_hz);
+            }
+            let reduced_hz = reduced.map_or(f64::INFINITY, |quotient| hertz(quotient.lambda));
+            FrequencyPair::new([hertz(full), reduced_hz], error.bar_of(hertz(full)), band_hz)
         };
         answers.asked.iter().enumerate().map(pair).collect()
     }
@@ -49,6 +53,13 @@ impl Reference {
     }
 }
 
+/// Whether a motion costs no energy in either model as far as its rounding tells: of what is left no one can say which is larger. A mechanism
+/// inside a thin plate, which a boundary leaves free, is one.
+fn are_zero(full: f64, error: &ModeError, reduced: &Quotient) -> bool {
+    let level_of_reduced = error.zero_level.max(ROUNDINGS * reduced.rounding * reduced.lambda.abs());
+    zero::is_zero(full, error.zero_level) && zero::is_zero(reduced.lambda, level_of_reduced)
+}
+
 /// M-24: a reduced model is the full one with constraints; none of its eigenvalues lies below.
 ///
 /// What may still be missing is bounded term by term. Each of the two Rayleigh quotients has the rounding of its own terms,
@@ -63,6 +74,9 @@ pub(super) fn monotonicity(evidence: &Evidence<'_>, references: &[Reference]) ->
         let answers = quotients(evidence, reference, k, m)?;
         for (at, reduced) in answers.asked.iter().zip(&answers.found) {
             let (full, error) = (&reference.lambda[*at], &reference.errors[*at]);
+            if are_zero(*full, error, reduced) {
+                continue;
+            }
             let below = (1.0 - reduced.lambda / full).max(0.0);
             let terms = f64::EPSILON * error.cancellation + error.rounding_floor / full.abs();
             let rounding = ROUNDINGS * (terms + reduced.rounding);

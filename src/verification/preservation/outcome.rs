@@ -87,9 +87,9 @@ pub struct BoundaryCount {
 /// One frequency in both models.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrequencyPair {
-    /// In the full model.
+    /// In the full model; zero where rounding leaves nothing to tell from it in either model.
     pub full_hz: f64,
-    /// What it may be off by, as the error bar of a mode.
+    /// What it may be off by, as the error bar of a mode; of a zero the frequency up to which it is one.
     pub full_error_bar_hz: f64,
     /// In the reduced model.
     pub reduced_hz: f64,
@@ -100,6 +100,11 @@ pub struct FrequencyPair {
 }
 
 impl FrequencyPair {
+    /// A motion that costs no energy in either model, as far as anybody can tell up to this frequency.
+    pub(crate) fn of_no_energy(level_hz: f64, band_hz: [f64; 2]) -> Self {
+        Self { relative_difference: 0.0, ..Self::new([0.0; 2], level_hz, band_hz) }
+    }
+
     /// The frequency of both models with the error bar of the full one, for a band in Hz. One that the reduced model has in the band, and the
     /// full one below it, is a resonance of the band that is not there: it counts.
     pub(crate) fn new([full_hz, reduced_hz]: [f64; 2], full_error_bar_hz: f64, band_hz: [f64; 2]) -> Self {
