@@ -77,8 +77,10 @@ impl Case<'_> {
         };
         let cost = of_first_elastic(cost(&worst), zeros.first_elastic(0));
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
-        // As many as all bodies have motions: soft supports leave them some at most, rows along axes that are slightly off all.
-        let is_askew = zeros.count() >= self.free.iter().map(|free| free.n_moving).sum::<usize>();
+        // As many as all bodies have motions: soft supports at most rows leave them some at most, rows along axes that are slightly off all.
+        // Where few rows are touched, something left behind may be held, and the rest is free.
+        let n_moving: usize = self.free.iter().map(|free| free.n_moving).sum();
+        let is_askew = self.are_mostly_touched() && zeros.count() >= n_moving;
         // Where supports touch most rows, the others prove too little; where they touch none, there are no supports.
         let is_unexplained = zeros.count() > self.n_explained
             && (cost.energy > ROUNDED || is_askew)
