@@ -92,7 +92,7 @@ impl<'a> Content<'a> {
         let stated = kept.iter().copied().find(|lambda| *lambda > 0.0);
         let parts = (k.as_ref(), m.as_ref(), u.as_ref());
         let mass_rank = mass_rank(superelement);
-        let motions = ByInertia::of(parts)?;
+        let motions = ByInertia::of(m.as_ref(), u.as_ref())?;
         let k_of_pencil = lifted(k.as_ref(), motions.massless.as_ref());
         let first = match (mass_rank, stated) {
             (Some(_), None) => relief_scale(parts, superelement.n_interface()).unwrap_or(1.0),

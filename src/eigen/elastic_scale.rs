@@ -24,7 +24,7 @@ use crate::error::Result;
 /// A dense eigenproblem that does not converge.
 pub(crate) fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>)) -> Result<Option<f64>> {
     let r = k.nrows();
-    let ByInertia { massive, massless } = ByInertia::of((k, m, u))?;
+    let ByInertia { massive, massless } = ByInertia::of(m, u)?;
     let scale = coordinate_scales(k, m, massive.as_ref());
     let (k, m) = (scaled_by(k, &scale), scaled_by(m, &scale));
     let scaled = |motions: &Mat<f64>| Mat::from_fn(r, motions.ncols(), |i, j| motions[(i, j)] / scale[i]);
@@ -43,7 +43,7 @@ pub(crate) fn first_elastic((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef
     Ok(spectral.and_then(|spectral| spectral.eigenvalues().first().copied()))
 }
 
-/// Powers of two near 1/√(M̂_ii + K̂_ii/ρ), ρ = min Σ K̂_ii w_i² / Σ M̂_ii w_i² over rigid-body motions with inertia. Of a rotation without
+/// Powers of two near 1/√(M̂_ii + K̂_ii/ρ), ρ = max Σ K̂_ii w_i² / Σ M̂_ii w_i² over rigid-body motions with inertia. Of a rotation without
 /// inertia M̂_ii is what rounding squares leave, and of a node that alone holds the component K̂_ii is rounding: neither is a unit by itself.
 fn coordinate_scales(k: MatRef<'_, f64>, m: MatRef<'_, f64>, massive: MatRef<'_, f64>) -> Vec<f64> {
     let r = k.nrows();
@@ -51,7 +51,7 @@ fn coordinate_scales(k: MatRef<'_, f64>, m: MatRef<'_, f64>, massive: MatRef<'_,
         (0..r).map(|i| a[(i, i)].max(0.0) * massive[(i, j)] * massive[(i, j)]).sum::<f64>()
     };
     let ratios = (0..massive.ncols()).map(|j| sum(k, j) / sum(m, j));
-    let ratio = ratios.filter(|ratio| *ratio > 0.0 && ratio.is_finite()).reduce(f64::min);
+    let ratio = ratios.filter(|ratio| *ratio > 0.0 && ratio.is_finite()).reduce(f64::max);
     let size = |i: usize| m[(i, i)].max(0.0) + ratio.map_or(0.0, |ratio| k[(i, i)].max(0.0) / ratio);
     (0..r).map(|i| dense::power_of_two_root(size(i))).collect()
 }

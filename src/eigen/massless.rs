@@ -1,12 +1,15 @@
 //! Rigid-body motions of a reduced pencil without inertia: a straight beam of lumped masses turns about its own axis.
 //!
 //! ```text
-//! s_j = Σ_i K_ii u_ij²                    the size of a motion, whatever the units of the coordinates and of motions
-//! S⁻¹ ÛᵀMÛ S⁻¹ = V Θ Vᵀ,  W = Û S⁻¹ V      S = diag(√s_j)
+//! S⁻¹ ÛᵀMÛ S⁻¹ = V Θ Vᵀ,  W = Û S⁻¹ V      S one root of the largest inertia for translations, one for rotations, one for all others
 //! wᵀMw ≤ 10⁻²⁴ max wᵀMw,  ≤ c ε |w|ᵀ|M||w| + (c ε)² |ŵ|ᵀ|M||ŵ|,  ŵ = |Û||S⁻¹V|       no inertia
 //! ```
 //! The first is the criterion of the full model, the square of the rounding that the direction of a motion carries. The others are what
-//! rounding of M and of the terms of W leave where the true inertia is none.
+//! rounding of M and of the terms of W leave where the true inertia is none. Motions that are no unit motions of a body have unit inertia
+//! or none, and are of one size whatever their number. The stiffness is no size here: where the interface just holds the component, it
+//! has rounding alone.
+
+use std::ops::Range;
 
 use faer::{Mat, MatRef};
 
@@ -29,7 +32,7 @@ impl ByInertia {
     ///
     /// # Errors
     /// A dense eigenproblem that does not converge.
-    pub(crate) fn of((k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>)) -> Result<Self> {
+    pub(crate) fn of(m: MatRef<'_, f64>, u: MatRef<'_, f64>) -> Result<Self> {
         let (r, n_r) = (u.nrows(), u.ncols());
         let as_they_are = || Self { massive: u.to_owned(), massless: Mat::zeros(r, 0) };
         if n_r == 0 {
@@ -37,9 +40,7 @@ impl ByInertia {
         }
         let mut gram = dense::gram(u, dense::product(m, u).as_ref());
         dense::symmetrise(&mut gram);
-        let size = |j: usize| (0..r).map(|i| k[(i, i)].max(0.0) * u[(i, j)] * u[(i, j)]).sum::<f64>();
-        let unit = |j: usize| dense::power_of_two_root(if size(j) > 0.0 { size(j) } else { gram[(j, j)] });
-        let units: Vec<f64> = (0..n_r).map(unit).collect();
+        let units = units(gram.as_ref());
         let scaled = Mat::from_fn(n_r, n_r, |i, j| gram[(i, j)] * units[i] * units[j]);
         let (_, vectors) = dense::symmetric_eigen(scaled.as_ref())?;
         let directions = Mat::from_fn(n_r, n_r, |i, j| units[i] * vectors[(i, j)]);
@@ -64,6 +65,17 @@ impl ByInertia {
             }
         })
     }
+}
+
+/// Three translations, three rotations, and what follows; of fewer motions than a body has, all together.
+fn units(gram: MatRef<'_, f64>) -> Vec<f64> {
+    let n = gram.ncols();
+    let groups = if n < 6 { vec![0..n] } else { vec![0..3, 3..6, 6..n] };
+    let of_group = |group: Range<usize>| {
+        let largest = group.clone().map(|j| gram[(j, j)]).fold(0.0, f64::max);
+        group.map(move |_| dense::power_of_two_root(largest))
+    };
+    groups.into_iter().flat_map(of_group).collect()
 }
 
 /// K with a stiffness of one against some motions, in units of its diagonal: where a motion has neither stiffness nor mass the pencil is
@@ -92,8 +104,8 @@ mod tests {
         let axis = [0.6, 0.8];
         // Rotations about the axis move no mass, those across it do; rounding left 1e-17 of the former.
         let mass = Mat::from_fn(2, 2, |i, j| f64::from(u8::from(i == j)) - axis[i] * axis[j] + 1e-17);
-        let (stiffness, motions) = (Mat::<f64>::identity(2, 2), Mat::<f64>::identity(2, 2));
-        let found = ByInertia::of((stiffness.as_ref(), mass.as_ref(), motions.as_ref())).expect("numbers");
+        let motions = Mat::<f64>::identity(2, 2);
+        let found = ByInertia::of(mass.as_ref(), motions.as_ref()).expect("numbers");
         assert_eq!((found.massive.ncols(), found.massless.ncols()), (1, 1));
         let (x, y) = (found.massless[(0, 0)], found.massless[(1, 0)]);
         assert!((x * axis[1] - y * axis[0]).abs() < 1e-15, "{x} {y}");
@@ -105,7 +117,7 @@ mod tests {
         let one = Mat::<f64>::identity(2, 2);
         for (inertia, n_massless) in [(1e-23, 0), (1e-53, 1), (0.0, 1)] {
             let mass = Mat::from_fn(2, 2, |i, j| if i != j { 0.0 } else { [1.0, inertia][i] });
-            let found = ByInertia::of((one.as_ref(), mass.as_ref(), one.as_ref())).expect("numbers");
+            let found = ByInertia::of(mass.as_ref(), one.as_ref()).expect("numbers");
             assert_eq!(found.massless.ncols(), n_massless, "{inertia}");
         }
     }

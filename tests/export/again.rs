@@ -365,7 +365,7 @@ fn a_held_superelement_is_reduced_again_with_more_held() {
         let ended = supel(&["reduce", &place.text("x.job.toml")]);
         assert_eq!(ended.code, ExitCode::Done, "{method}: {}{}", ended.out, ended.err);
         let frequencies = |args: &[&str]| -> Vec<f64> {
-            let ended = supel(&[&["modes", "--count", "3", "--json"], args].concat()).expect(ExitCode::Done);
+            let ended = supel(&[&["modes"], args, &["--count", "3", "--json"]].concat()).expect(ExitCode::Done);
             let document: Value = serde_json::from_str(&ended.out).expect("JSON");
             let modes = document["modes"].as_array().expect("modes");
             modes.iter().map(|mode| mode["frequency_hz"].as_f64().expect("a number")).collect()

@@ -102,3 +102,24 @@ pub(super) fn monotonicity(evidence: &Evidence<'_>, references: &[Reference]) ->
         worst: at,
     }))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A mechanism of a thin plate with its corners held: −1.2e-5 Hz and 2.8e-5 Hz, where rounding leaves 7.6e-4 Hz to tell from nothing.
+    #[test]
+    fn motions_without_energy_are_no_frequencies_to_compare() {
+        let square = |hertz: f64| hertz.abs() * hertz;
+        let error = ModeError { zero_level: square(7.6e-4), relative_bar: 122.0, ..ModeError::default() };
+        let reduced = |hertz: f64| Quotient { lambda: square(hertz), rounding: 1e-9, uncoupled: 0.0 };
+        assert!(are_zero(square(-1.2e-5), &error, &reduced(2.8e-5)));
+        // A frequency in one of the two is a difference, whichever has it.
+        assert!(
+            !are_zero(square(-1.2e-5), &error, &reduced(1e-2)) && !are_zero(square(1e-2), &error, &reduced(2.8e-5))
+        );
+        assert!(error.bar_of(-1.2e-5) > 0.0);
+        let pair = FrequencyPair::of_no_energy(7.6e-4, [0.0, 1.0]);
+        assert!(pair.in_band && pair.relative_difference == 0.0 && pair.full_error_bar_hz == 7.6e-4);
+    }
+}
