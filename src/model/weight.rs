@@ -17,6 +17,8 @@ pub struct Weight {
     pub motions: Option<Mat<f64>>,
     /// Whether every node has all translations or none, so that no direction lacks mass that others have.
     pub has_whole_nodes: bool,
+    /// Whether M ties nodes to each other, so that those which supports took out leave no whole mass behind.
+    pub couples_nodes: bool,
     /// Whether supports may have taken mass out of the matrices before they were read.
     pub supports: Supports,
 }
@@ -55,6 +57,8 @@ impl Model {
         }
         let has_whole_nodes = n_translations.values().all(|count| *count == 3);
         let motions = sites.is_some().then_some(masses);
-        Some(Weight { translations, motions, has_whole_nodes, supports: self.supports })
+        let node = |row: u32| dofs[row as usize].map(|dof| dof.node);
+        let couples_nodes = self.mass.iter().any(|(value, (row, col))| *value != 0.0 && node(row) != node(col));
+        Some(Weight { translations, motions, has_whole_nodes, couples_nodes, supports: self.supports })
     }
 }
