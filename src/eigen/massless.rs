@@ -70,7 +70,10 @@ impl ByInertia {
 /// Three translations, three rotations, and what follows; of fewer motions than a body has, all together.
 fn units(gram: MatRef<'_, f64>) -> Vec<f64> {
     let n = gram.ncols();
-    let groups = if n < 6 { vec![0..n] } else { vec![0..3, 3..6, 6..n] };
+    let groups = match n {
+        0..6 => [0..0, 0..0, 0..n],
+        _ => [0..3, 3..6, 6..n],
+    };
     let of_group = |group: Range<usize>| {
         let largest = group.clone().map(|j| gram[(j, j)]).fold(0.0, f64::max);
         group.map(move |_| dense::power_of_two_root(largest))

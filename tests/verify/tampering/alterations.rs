@@ -1,5 +1,7 @@
 //! Changes of tensors, and of several fields together by somebody who knows what they mean.
 
+use std::num::NonZero;
+
 use supel_runtime::{
     Coordinate, Matrix, MatrixKind, Metadata, Precision, RecoveredDof, RecoveredFaces, Recovery, RigidBodyModes,
     Superelement, Tensors, Verdict,
@@ -830,6 +832,14 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
         },
     },
     Alteration { field: "job", what: "of another version", alter: |_, m| job(m, "/future", 1.into()) },
+    Alteration {
+        field: "generator.parts_of_earlier_runs",
+        what: "stated",
+        alter: |_, m| {
+            m.generator.parts_of_earlier_runs = NonZero::new(3);
+            true
+        },
+    },
     Alteration {
         field: "generator.version",
         what: "another, and damping put in",
