@@ -66,8 +66,7 @@ pub(crate) fn prepared(
     let matrices = partition::further_matrices(&model, matrices)?;
     let interfaces = partition::with_faces(&job.interfaces, &faces)?;
     facts.faces = faces.into_iter().filter(|patch| patch.is_of_interface()).collect();
-    let is_weighed = job.model.expect.is_some() || plan.holds_dofs() || model.fit.is_preloaded();
-    let weight = if is_weighed { model.weight() } else { None };
+    let weight = model.weight();
     let held = partition::held(&model, &job.fixed)?;
     let mut partition = Partition::in_scene(model, &interfaces, held, (plan.statements(), plan.parting()))?;
     let supports = job.scene.as_ref().and_then(|scene| scene.boundaries.as_deref());

@@ -334,19 +334,19 @@ fn uncouple(stiffness: &mut Mat<f64>, partition: &Partition) -> Worst {
 /// nothing deforms has none of its own.
 fn stiffness_sizes(stiffness: &Mat<f64>, partition: &Partition, basis: &Basis<'_>) -> Vec<f64> {
     let n_b = partition.n_interface();
-    let of_modes = sizes_of_modes(stiffness.as_ref(), basis);
+    let of_modes = sizes_of_modes(stiffness.as_ref(), n_b, basis);
     let largest = of_modes.iter().fold(0.0f64, |max, value| max.max(value.abs()));
     let of_mode = |j: usize| if n_b == 0 { largest } else { of_modes[j] };
     (0..stiffness.nrows()).map(|i| if i < n_b { uncondensed(partition, i) } else { of_mode(i - n_b) }).collect()
 }
 
-/// K̂_jj of the columns behind the interface. A rigid-body mode that leaves the interface at rest has rounding there: it gets the least of the
-/// elastic columns, which have unit modal mass as it has, or without them the largest of all.
-pub(crate) fn sizes_of_modes(stiffness: MatRef<'_, f64>, basis: &Basis<'_>) -> Vec<f64> {
-    let n_b = stiffness.nrows() - basis.coordinates.len();
+/// K̂_jj of the columns behind the interface of n_B dofs; of those of another program nobody knows what they are. A rigid-body mode that leaves
+/// the interface at rest has rounding there: it gets the least of the elastic columns, which have unit modal mass as it has, or without them
+/// the largest of all.
+pub(crate) fn sizes_of_modes(stiffness: MatRef<'_, f64>, n_b: usize, basis: &Basis<'_>) -> Vec<f64> {
     let of = |j: usize| stiffness[(n_b + j, n_b + j)];
-    let is_rigid = |j: &usize| matches!(basis.coordinates[*j], DynamicCoordinate::RigidBody(_));
-    let columns = 0..basis.coordinates.len();
+    let is_rigid = |j: &usize| matches!(basis.coordinates.get(*j), Some(DynamicCoordinate::RigidBody(_)));
+    let columns = 0..stiffness.nrows() - n_b;
     let elastic = columns.clone().filter(|j| !is_rigid(j)).map(of).reduce(f64::min);
     let least = elastic.unwrap_or_else(|| columns.clone().map(of).fold(0.0, f64::max));
     columns.map(|j| if is_rigid(&j) { of(j).max(least) } else { of(j) }).collect()

@@ -128,7 +128,7 @@ pub(super) fn coordinate_scales(evidence: &Evidence<'_>) -> Vec<f64> {
     let (partition, k) = (evidence.partition, &evidence.reduction.stiffness);
     let (n_i, n_b) = (partition.n_internal, partition.n_interface());
     let uncondensed = |i: usize| partition.stiffness.get(n_i + i, n_i + i).copied().unwrap_or(0.0);
-    let of_modes = sizes_of_modes(k.as_ref(), evidence.basis);
+    let of_modes = sizes_of_modes(k.as_ref(), n_b, evidence.basis);
     (0..k.nrows()).map(|i| dense::power_of_two_root(if i < n_b { uncondensed(i) } else { of_modes[i - n_b] })).collect()
 }
 

@@ -11,8 +11,13 @@ use crate::place::supel;
 const COMMANDS: [&str; 4] = ["reduce", "verify", "inspect", "init"];
 
 /// Errors that only one command meets, whose messages name its flags as they are.
-const OF_ONE: [(&str, &str); 4] =
-    [("MissingFlags", "reduce"), ("FlagText", "reduce"), ("OtherVersion", "verify"), ("OutputExists", "init")];
+const OF_ONE: [(&str, &str); 5] = [
+    ("MissingFlags", "reduce"),
+    ("FlagText", "reduce"),
+    ("OtherVersion", "verify"),
+    ("MadeOfParts", "verify"),
+    ("OutputExists", "init"),
+];
 
 /// The flags in a text, each with the word before it.
 fn flags(text: &str) -> Vec<(String, String)> {
