@@ -34,10 +34,13 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
     Unvouched { field, reason }
 }
 
+const PARTS: Unvouched =
+    unvouched("generator.parts_of_earlier_runs", "what a cache held is known to the run alone that took it");
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 34] = [
+const ALONE: [Unvouched; 35] = [
+    PARTS,
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
@@ -93,7 +96,8 @@ const ALONE: [Unvouched; 34] = [
 ];
 
 /// Fields that a comparison with the job cannot confirm either.
-const WITH_JOB: [Unvouched; 5] = [
+const WITH_JOB: [Unvouched; 6] = [
+    PARTS,
     unvouched("generator", "another version that makes the same leaves no other sign; a warning says so"),
     unvouched("dropped[].reason", "words for people"),
     unvouched("job", "files may move, and repeated entries are added or refused: the matrices are compared"),
@@ -110,6 +114,7 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
     };
     let is_algebraic = metadata.model.rigid_body_modes == RigidBodyModes::Algebraic;
     let is_there = |unvouched: &&Unvouched| match unvouched.field {
+        "generator.parts_of_earlier_runs" => metadata.generator.parts_of_earlier_runs.is_some(),
         "units" => metadata.units.is_some(),
         "interface_nodes[].label" => metadata.interface_nodes.iter().any(|node| node.label.is_some()),
         "interface_nodes[].position" => is_algebraic && !metadata.interface_nodes.is_empty(),

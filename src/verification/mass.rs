@@ -7,7 +7,7 @@ use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::job::Expectation;
-use crate::model::Supports;
+use crate::model::{Supports, Whole};
 use crate::number::quantity;
 use crate::partition::Partition;
 
@@ -126,7 +126,11 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> 
 /// others, as in the matrices of a superelement with `[[fixed]]` of its own.
 pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
     let weight = partition.model.weight.as_ref()?;
-    let is_whole = weight.has_whole_nodes && (weight.supports == Supports::None || !weight.couples_nodes);
+    let is_whole = match weight.whole {
+        Whole::EachNode => true,
+        Whole::AllNodes => weight.supports == Supports::None,
+        Whole::Nothing => false,
+    };
     let motions = weight.motions.as_ref().filter(|_| is_whole)?;
     Some(of_a_body(motions.as_ref(), partition.precision.mass.share))
 }
