@@ -15,21 +15,10 @@ pub struct Weight {
     pub translations: [f64; 3],
     /// UᵀMU of the six unit motions about the origin, 6 × 6, where coordinates are known.
     pub motions: Option<Mat<f64>>,
-    /// What has its mass whole.
-    pub whole: Whole,
+    /// Whether every node has all translations or none, so that no direction lacks mass that others have.
+    pub has_whole_nodes: bool,
     /// Whether supports may have taken mass out of the matrices before they were read.
     pub supports: Supports,
-}
-
-/// What has its mass whole, so that no direction lacks mass that others have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Whole {
-    /// Every node by itself: supports that took some out leave the others whole.
-    EachNode,
-    /// All nodes together: M ties them to each other.
-    AllNodes,
-    /// Nothing: some node has some of its translations only.
-    Nothing,
 }
 
 /// What is known of supports that the matrices had before they were read.
@@ -64,14 +53,8 @@ impl Model {
         for dof in dofs.iter().flatten().filter(|dof| !dof.direction.is_rotation()) {
             *n_translations.entry(dof.node).or_default() += 1;
         }
-        let node = |row: u32| dofs[row as usize].map(|dof| dof.node);
-        let are_tied = || self.mass.iter().any(|(value, (row, col))| *value != 0.0 && node(row) != node(col));
-        let whole = match n_translations.values().all(|count| *count == 3) {
-            false => Whole::Nothing,
-            true if are_tied() => Whole::AllNodes,
-            true => Whole::EachNode,
-        };
+        let has_whole_nodes = n_translations.values().all(|count| *count == 3);
         let motions = sites.is_some().then_some(masses);
-        Some(Weight { translations, motions, whole, supports: self.supports })
+        Some(Weight { translations, motions, has_whole_nodes, supports: self.supports })
     }
 }

@@ -7,7 +7,7 @@ use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::job::Expectation;
-use crate::model::{Supports, Whole};
+use crate::model::Supports;
 use crate::number::quantity;
 use crate::partition::Partition;
 
@@ -121,16 +121,12 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> 
     })
 }
 
-/// M-16 of a component that is no free body – several, or one that something holds – by its mass before supports of the job take rows out of
-/// it. None where supports may have taken rows out before that leave the mass of no body: some of a node, or all of a node that M ties to
-/// others, as in the matrices of a superelement with `[[fixed]]` of its own.
+/// M-16 of a component that is no free body – several, or one that the job holds – by its mass before supports of the job take rows out of
+/// it. None where supports may have taken rows out before, of which all of a node leave the mass of no body as well as some: matrices that
+/// something holds, such as those of a superelement with `[[fixed]]` of its own.
 pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
     let weight = partition.model.weight.as_ref()?;
-    let is_whole = match weight.whole {
-        Whole::EachNode => true,
-        Whole::AllNodes => weight.supports == Supports::None,
-        Whole::Nothing => false,
-    };
+    let is_whole = weight.has_whole_nodes && weight.supports == Supports::None;
     let motions = weight.motions.as_ref().filter(|_| is_whole)?;
     Some(of_a_body(motions.as_ref(), partition.precision.mass.share))
 }

@@ -2,7 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::model::{Assembler, Entry};
-use supel_models::transform::{grounded, join, translated};
+use supel_models::transform::{join, translated};
 use supel_models::{Inertia, Material, Model, Section, brick, frame};
 use supel_runtime::Superelement;
 
@@ -155,28 +155,22 @@ fn a_lumped_mass_direction_by_direction_of_a_held_block() {
     }
 }
 
-/// Neither do other bodies, nor springs to the ground: what is not one free body has a mass all the same.
+/// Neither do other bodies: what is not one body has a mass all the same.
 #[test]
-fn a_lumped_mass_direction_by_direction_of_two_bodies_and_on_springs() {
-    let two = join(&block(), &translated(&block(), [10.0, 2.0, 1.0]), &[]);
-    let corners = [1, 7, 84].into_iter().flat_map(|label| (3 * (label - 1))..3 * label);
-    let carried = corners.fold(block(), |model, row| grounded(&model, row, 1e8));
-    for (name, sound, end) in [("two bodies", two, "B.XMAX"), ("on springs", carried, "XMAX")] {
-        let sound = lumped_of(&sound);
-        for (model, code) in [(sound.clone(), ExitCode::Done), (direction_by_direction(&sound), ExitCode::CheckFailed)]
-        {
-            let place = Place::with(&model);
-            for method in ["herting", "craig-bampton", "guyan"] {
-                let modes = if method == "guyan" { "" } else { " --modes 5" };
-                let [a, b] = ["XMIN", end].map(|name| listed(&sound.groups[name]));
-                let flags = format!("--rigid-interface a={a} --rigid-interface b={b}");
-                let ended =
-                    place.reduce(&place.model_flags(), &format!("{flags} --method {method}{modes} --allow-unverified"));
-                assert_eq!(ended.code, code, "{name}, {method}: {}{}", ended.out, ended.err);
-                place.write("job.json", supel(&["inspect", &place.text("x.supel"), "--job"]).out.as_bytes());
-                let verified = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.json")]);
-                assert_eq!(verified.code, code, "{name}, {method}: {}{}", verified.out, verified.err);
-            }
+fn a_lumped_mass_direction_by_direction_of_two_bodies() {
+    let sound = lumped_of(&join(&block(), &translated(&block(), [10.0, 2.0, 1.0]), &[]));
+    for (model, code) in [(sound.clone(), ExitCode::Done), (direction_by_direction(&sound), ExitCode::CheckFailed)] {
+        let place = Place::with(&model);
+        for method in ["herting", "craig-bampton", "guyan"] {
+            let modes = if method == "guyan" { "" } else { " --modes 5" };
+            let [a, b] = ["XMIN", "B.XMAX"].map(|name| listed(&sound.groups[name]));
+            let flags = format!("--rigid-interface a={a} --rigid-interface b={b}");
+            let ended =
+                place.reduce(&place.model_flags(), &format!("{flags} --method {method}{modes} --allow-unverified"));
+            assert_eq!(ended.code, code, "{method}: {}{}", ended.out, ended.err);
+            place.write("job.json", supel(&["inspect", &place.text("x.supel"), "--job"]).out.as_bytes());
+            let verified = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.json")]);
+            assert_eq!(verified.code, code, "{method}: {}{}", verified.out, verified.err);
         }
     }
 }
