@@ -1934,8 +1934,7 @@ pub enum Error {
     #[entry("E-PARTS", Usage, "run its job again without a cache, or compare with `verify --job` alone")]
     #[error(
         "{}: made from {} of what earlier runs had kept in a cache – right to the error bars, but no other run has their last \
-        bits – run its job again without a cache, or compare \
-        by verify --job without --reproduce",
+        bits – run its job again without a cache, or compare by verify --job without --reproduce",
         path.display(), counted(*parts, "part", "parts")
     )]
     MadeOfParts {

@@ -12,7 +12,7 @@ use crate::sparse::ENTRY_BYTES;
 /// Bytes of a double.
 const DOUBLE: u64 = 8;
 /// Modes assumed for a band whose number of modes is not known yet.
-const MODES_IN_A_BAND: u64 = 50;
+pub(crate) const MODES_IN_A_BAND: usize = 50;
 /// Columns of the constraint modes that are there at once where they are not stored.
 const PANEL: u64 = 64;
 /// Vectors in addition to the right-hand sides of a solve by a factor in single precision.
@@ -30,7 +30,7 @@ pub(crate) const TOGETHER_UP_TO: usize = 50_000;
 /// more in a decomposition, and a copy while a column is added. Measured are 9 to 12 with 3,000 to 30,000 dofs and 12 to 294 interface dofs.
 const HALF_BLOCKS_OF_RESPONSE: u64 = 21;
 /// Blocks of n_B columns that such a space takes on, where the interface has few dofs.
-const RESPONSE_BLOCKS: f64 = 6.0;
+pub(crate) const RESPONSE_BLOCKS: f64 = 6.0;
 /// Columns for each root of n_B that it takes on where there are many: unlike forces share their answers. Measured are 560 columns of 150
 /// dofs and 790 of 294.
 const COLUMNS_OF_A_ROOT: f64 = 46.0;
@@ -127,7 +127,8 @@ pub fn storage_within_memory(
 ///
 /// Counted are the matrices, the factors that are kept, what waits for its parent while one is made, the largest front, the
 /// constraint modes, the modes, the basis of the eigensolver (five vectors for each mode and eight blocks of eight) or what is
-/// held after it, what the comparison with the full model holds, and the rows that are recovered. The number of modes is what a count in the band has found, once there is one.
+/// held after it, what the comparison with the full model holds, and the rows that are recovered. The number of modes is what a
+/// count in the band has found, once there is one.
 ///
 /// # Errors
 /// [`Error::MemoryForecast`] where there is no room for a single search.
@@ -143,10 +144,7 @@ pub fn slices_within_memory(
     let Some(available) = resources.allowed(job) else {
         return Ok(n_threads);
     };
-    let n_modes = match (n_modes, job.reduction.wanted()) {
-        (Some(count), _) | (None, ModeSelection::Count { count }) => (count as u64).min(partition.n_dofs() as u64),
-        (None, ModeSelection::UpTo { .. }) => MODES_IN_A_BAND,
-    };
+    let n_modes = n_looked_for(job, n_modes).map_or(MODES_IN_A_BAND, |count| count.min(partition.n_dofs())) as u64;
     let forecast = |storage, at_once: usize| {
         let search = SearchSize::of((plan, compared), n_modes, at_once as u64);
         Memory::of(analysis, partition, search, storage)
@@ -157,6 +155,14 @@ pub fn slices_within_memory(
     let Memory { factors, matrices, vectors, program } = forecast(storage, 1);
     let in_single = Some(forecast(Storage::Single, 1).total()).filter(|needed| *needed <= available);
     Err(Error::MemoryForecast { available, factors, matrices, vectors, program, in_single })
+}
+
+/// How many modes a run looks for: what a count in the band has found, or what the job says; none where nobody knows.
+pub(crate) fn n_looked_for(job: &Job, counted: Option<usize>) -> Option<usize> {
+    counted.or(match job.reduction.wanted() {
+        ModeSelection::Count { count } => Some(count),
+        ModeSelection::UpTo { .. } => None,
+    })
 }
 
 /// What a planned run with so many modes will hold at once, with its factor in double precision unless the job says otherwise.

@@ -16,8 +16,7 @@ use crate::error::{Error, Result};
 use crate::factor::{Analysis, few_digits, whole_count};
 use crate::job::Mechanisms;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, largest_residual, zero_energy};
-use crate::rigid::{lost_interface, refuse_uncounted};
+use crate::rigid::{RigidBodyModes, largest_residual, lost_interface, refuse_uncounted, zero_energy};
 use crate::sparse::absolute_energy;
 use crate::sparse::{product, product_and_terms};
 
@@ -63,6 +62,11 @@ pub struct LooseMotions {
 const FREE_IN_PRACTICE: f64 = 1e-8;
 
 impl LooseMotions {
+    /// Eigenvalue up to which what few digits leave of motions without energy may be elastic.
+    pub fn level_of_digits(&self, rigid: &RigidBodyModes) -> f64 {
+        self.mechanisms.iter().map(|motion| motion.bar).fold(rigid.level_of_digits(), f64::max)
+    }
+
     /// An error where few digits of K leave open whether motions inside the component are elastic, and the job does not say that they are
     /// meant: what is soft would be lost.
     ///
@@ -73,13 +77,12 @@ impl LooseMotions {
         if mechanisms == Mechanisms::Accept || n_inside == 0 || !partition.has_few_digits() {
             return Ok(());
         }
-        let level = self.mechanisms.iter().map(|motion| motion.bar).fold(rigid.level_of_digits(), f64::max);
         if self.share_of_next.max(rigid.energy.angle) <= FREE_IN_PRACTICE {
             return Ok(());
         }
         Err(Error::MechanismDigits {
             n_inside,
-            up_to_hz: partition.scaling.hertz(level),
+            up_to_hz: partition.scaling.hertz(self.level_of_digits(rigid)),
             known: partition.precision.stiffness.in_words(),
             nodes: self.mechanisms.first().map_or_else(String::new, |motion| motion.nodes.join(", ")),
         })

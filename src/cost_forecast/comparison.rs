@@ -4,16 +4,12 @@ use super::sizes::{Proofs, Sizes};
 use super::stage::{Need, Stage, stages};
 use super::work::{NOMINAL, Work};
 use crate::factor::Analysis;
-use crate::job::{AnalysisJob, Certify, Job, ModeSelection};
-use crate::memory_forecast::{self, Response};
+use crate::job::{AnalysisJob, Certify, Job};
+use crate::memory_forecast::{Compared, MODES_IN_A_BAND, RESPONSE_BLOCKS, Response, n_looked_for};
 use crate::number::quantity;
 use crate::partition::Partition;
 use crate::plan::Plan;
 
-/// Blocks of n_B right-hand sides that the frequency response converges in.
-const RESPONSE_BLOCKS: f64 = 6.0;
-/// Modes assumed of a band that nobody has counted.
-const IN_A_BAND: usize = 50;
 /// Work that a comparison which the job does not ask for may take on any job: half a second of the nominal machine.
 const SMALL: f64 = 0.5;
 
@@ -68,20 +64,13 @@ impl Comparisons {
 
     /// What is compared, as far as it takes memory, of a planned run that looks for so many modes; where nobody knows how many, of as many as
     /// are assumed.
-    pub fn in_memory(
-        plan: &Plan,
-        (partition, analysis): (&Partition, &Analysis),
-        n_modes: Option<usize>,
-    ) -> memory_forecast::Compared {
-        let n_modes = match (n_modes, plan.job().reduction.wanted()) {
-            (Some(count), _) | (None, ModeSelection::Count { count }) => count,
-            (None, ModeSelection::UpTo { .. }) => IN_A_BAND,
-        };
+    pub fn in_memory(plan: &Plan, (partition, analysis): (&Partition, &Analysis), n_modes: Option<usize>) -> Compared {
+        let n_modes = n_looked_for(plan.job(), n_modes).unwrap_or(MODES_IN_A_BAND);
         let sizes = Sizes::of(plan, partition, analysis, (n_modes, 0));
         let Self { frequencies, response } = Self::of(plan.job(), &sizes, Band::Known);
         let is_compared = |stage: &Stage| matches!(stage.need, Need::By(_));
         let n_supports = n_supports(plan.job(), &sizes) as usize;
-        memory_forecast::Compared {
+        Compared {
             n_supports: if is_compared(&frequencies) { n_supports } else { 0 },
             response: if is_compared(&response) { Response::Compared } else { Response::LeftOut },
         }

@@ -5,12 +5,11 @@ use serde::Serialize;
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, count_below_freeing};
 use crate::job::{Boundary, ModeSelection};
+use crate::memory_forecast::MODES_IN_A_BAND;
 use crate::partition::Partition;
 use crate::plan::{Modes, Plan};
 use crate::rigid::{RigidBodyModes, rigid_body_modes, with_passing};
 
-/// Modes assumed in a band in which they are not counted.
-const IN_A_BAND: usize = 50;
 /// Operations of a factorisation that nobody waits for: two seconds of the nominal machine.
 const SMALL: f64 = 2e10;
 
@@ -61,7 +60,7 @@ impl ExpectedModes {
         let counted = if is_counted { counted(plan, partition, analysis, up_to_hz)? } else { None };
         Ok(match counted {
             Some(count) => Self { count, known: Known::Counted },
-            None => Self { count: IN_A_BAND, known: Known::Assumed },
+            None => Self { count: MODES_IN_A_BAND, known: Known::Assumed },
         })
     }
 }

@@ -44,7 +44,7 @@ pub struct Input {
     pub rows: FileRows,
     /// Rows of the files that were along axes of their own; absent where all were along those of the model.
     pub turning: Option<Turning>,
-    /// Those of these axes that look rounded, where there are some.
+    /// Axes of nodes that look rounded, where there are some.
     pub axes: Option<RoundedAxes>,
     /// Multipoint constraints on the rows that are left; absent where the job names none.
     pub constraints: Option<ConstraintRows>,

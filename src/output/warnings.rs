@@ -57,9 +57,7 @@ fn as_far_as_digits_tell(results: &Results<'_>) -> String {
     if !results.evidence.partition.has_few_digits() {
         return String::new();
     }
-    let of_digits = results.evidence.rigid.level_of_digits();
-    let level = results.loose.mechanisms.iter().map(|motion| motion.bar).fold(of_digits, f64::max);
-    let hertz = results.evidence.partition.scaling.hertz(level);
+    let hertz = results.evidence.partition.scaling.hertz(results.loose.level_of_digits(results.evidence.rigid));
     format!(" that the digits of the stiffness tell from none, which elastic ones up to {hertz:.1e} Hz do not either")
 }
 

@@ -151,14 +151,15 @@ impl<'t> Task<'t> {
     /// # Errors
     /// A pencil that is not definite.
     fn recalled_or_known(&self, cache: Option<&Cache>) -> Result<Measured> {
-        let unkept = cache.filter(|cache| !cache.has(Kind::Response, &self.key().digest()));
-        if let Some(cache) = unkept
+        let Some(cache) = cache else { return self.found_by_solves(None) };
+        let key = self.key();
+        if !cache.has(Kind::Response, &key.digest())
             && let Some(measured) = self.known(cache)?
         {
             cache.part_was_taken();
             return Ok(measured);
         }
-        recalled(cache, || self.key(), || self.found_by_solves(cache))
+        recalled(Some(cache), || key, || self.found_by_solves(Some(cache)))
     }
 
     /// The response in the space of an earlier run, where that answers all samples.

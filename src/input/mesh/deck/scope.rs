@@ -34,7 +34,7 @@ impl Scope {
         }
     }
 
-    /// The same, to be added to.
+    /// The sets of a kind, for new ones.
     pub(super) fn sets_mut(&mut self, kind: SetKind) -> &mut Vec<SetLine> {
         match kind {
             SetKind::Nodes => &mut self.node_sets,
@@ -131,6 +131,6 @@ pub(super) enum Face {
     Free,
     /// Of nodes all.
     Nodes,
-    /// Those of another surface.
+    /// The nodes and faces of another surface.
     OfSurface,
 }
