@@ -73,6 +73,16 @@ pub(crate) fn no_more_than(value: f64, digits: usize) -> f64 {
     if nearest <= value { nearest } else { rounded(nearest - 10.0f64.powi(decade(value) + 1 - digits as i32)) }
 }
 
+/// A positive bound with `digits` significant digits, rounded away from zero: what is above it as it is printed is above it. What is no
+/// number stays what it is.
+pub(crate) fn no_less_than(value: f64, digits: usize) -> f64 {
+    let below = no_more_than(value, digits);
+    if below >= value || !value.is_normal() {
+        return value;
+    }
+    no_more_than(below + 1.5 * 10.0f64.powi(decade(below) + 1 - digits as i32), digits)
+}
+
 /// Powers of 1024 with three digits: `41.2 MiB`.
 pub(crate) fn bytes(size: u64) -> String {
     const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
@@ -113,6 +123,25 @@ pub(crate) fn decade(value: f64) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bounds_are_rounded_outwards() {
+        for (value, digits, below, above) in [
+            (1.0, 2, 1.0, 1.0),
+            (1.01, 2, 1.0, 1.1),
+            (9.96, 2, 9.9, 10.0),
+            (0.0123, 2, 0.012, 0.013),
+            (9.99e-7, 1, 9e-7, 1e-6),
+        ] {
+            let found = [no_more_than(value, digits), no_less_than(value, digits)];
+            assert!(
+                (found[0] / below - 1.0).abs() < 1e-15 && (found[1] / above - 1.0).abs() < 1e-15,
+                "{value}: {found:?}"
+            );
+        }
+        assert_eq!(no_less_than(0.0, 2), 0.0);
+        assert!(no_less_than(f64::NAN, 2).is_nan() && no_less_than(f64::INFINITY, 2).is_infinite());
+    }
 
     #[test]
     fn numbers_read_as_people_write_them() {

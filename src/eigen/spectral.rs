@@ -103,6 +103,16 @@ impl Spectral {
         self.weighted(self.shapes.as_ref(), z, n_b)
     }
 
+    /// What rows of a basis see of the shapes, n_o × r: [`Spectral::seen`] takes it at every frequency.
+    pub(crate) fn shapes_at(&self, rows: MatRef<'_, f64>) -> Mat<f64> {
+        dense::product(rows, self.shapes.as_ref())
+    }
+
+    /// Those columns as rows of a basis see them, real and imaginary part, n_o × n_b each.
+    pub(crate) fn seen(&self, shapes_at: MatRef<'_, f64>, z: c64, n_b: usize) -> [Mat<f64>; 2] {
+        self.weighted(shapes_at, z, n_b)
+    }
+
     /// The leading n_b × n_b block of (K − zM)⁻¹, real and imaginary part.
     pub(crate) fn block(&self, z: c64, n_b: usize) -> [Mat<f64>; 2] {
         self.weighted(self.shapes.as_ref().subrows(0, n_b), z, n_b)

@@ -105,8 +105,8 @@ fn at_interface(
 /// λc² at the outputs.
 fn at_outputs(partition: &Partition, shapes: MatRef<'_, f64>, stiffness: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; shapes.ncols()];
-    for row in &partition.outputs {
-        let entries: Vec<(u32, f64)> = partition.transformation.rows[*row].entries().collect();
+    for output in &partition.outputs {
+        let entries: Vec<(u32, f64)> = partition.transformation.rows[output.row].entries().collect();
         let flexibility: f64 = entries.iter().map(|(k, t)| share(t * t, stiffness[*k as usize])).sum();
         for (j, sum) in sums.iter_mut().enumerate() {
             let moved: f64 = entries.iter().map(|(k, t)| t * shapes[(*k as usize, j)]).sum();

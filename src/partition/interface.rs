@@ -86,18 +86,28 @@ pub fn recovered_rows(model: &Model, recovery: Option<&RecoveryJob>) -> Result<R
     Ok(RecoveredRows { rows, positions, faces: None })
 }
 
-/// The rows of the model at which a scene looks; none where it names no nodes.
+/// A dof inside at which a scene looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// Its row of the model.
+    pub row: usize,
+    /// Its node and direction.
+    pub dof: Dof,
+}
+
+/// The dofs at which a scene looks; none where it names no nodes.
 ///
 /// # Errors
 /// As [`recovered_rows`].
-pub fn output_rows(model: &Model, scene: Option<&SceneJob>) -> Result<Vec<usize>> {
+pub fn outputs(model: &Model, scene: Option<&SceneJob>) -> Result<Vec<Output>> {
     let outputs = scene.and_then(|scene| scene.outputs.as_ref());
     let Some(selection) = outputs.map(OutputsJob::selection) else { return Ok(Vec::new()) };
-    let (catalogue, mut rows) = (NodeCatalogue::new(model), Vec::new());
+    let (catalogue, mut found) = (NodeCatalogue::new(model), Vec::new());
     for node in catalogue.select(model, &selection)? {
-        rows.extend(catalogue.rows_of(&selection.selector, node)?.values());
+        let rows = catalogue.rows_of(&selection.selector, node)?.iter();
+        found.extend(rows.map(|(direction, row)| Output { row: *row, dof: Dof { node, direction: *direction } }));
     }
-    Ok(rows)
+    Ok(found)
 }
 
 /// Labels of the nodes of patches, whose coordinates count.

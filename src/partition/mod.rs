@@ -70,7 +70,7 @@ pub use follower::Follower;
 pub use further_matrices::{CarriedMatrix, MatrixFacts, RowMatrix, further_matrices};
 pub use gravity::Gravity;
 pub use held::{Held, HeldSelection, held};
-pub use interface::{RecoveredRows, TiedNodes, nodes_of_patches, output_rows, patches, recovered_rows};
+pub use interface::{Output, RecoveredRows, TiedNodes, nodes_of_patches, outputs, patches, recovered_rows};
 pub use interface_node::InterfaceNode;
 pub use load::{LoadFacts, Loads, RowLoad, loads};
 pub use mixed_interface::MixedInterface;

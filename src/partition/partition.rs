@@ -21,7 +21,7 @@ use super::follower::Follower;
 use super::further_matrices::CarriedMatrix;
 use super::gravity::Gravity;
 use super::held::Held;
-use super::interface::RecoveredRows;
+use super::interface::{Output, RecoveredRows};
 use super::interface_node::{InterfaceNode, NodeNames};
 use super::load::Loads;
 use super::mixed_interface::MixedInterface;
@@ -71,8 +71,8 @@ pub struct Partition {
     pub mixed: Option<MixedInterface>,
     /// Rows of the model whose displacements the superelement recovers; none unless the caller adds them.
     pub recovered: RecoveredRows,
-    /// Rows of the model at which the scene looks.
-    pub outputs: Vec<usize>,
+    /// Dofs inside at which the scene looks.
+    pub outputs: Vec<Output>,
     /// Quantities that the superelement gives; none unless the caller adds them.
     pub quantities: Quantities,
     /// Further matrices of the job; none unless the caller adds them.

@@ -152,10 +152,11 @@ impl ModesReport<'_> {
         let energy = if several { "strain energy" } else { "" };
         let mut rows = vec![["mode", "Hz", "not below Hz", "", energy, ""].map(str::to_owned)];
         for mode in &modes.modes {
-            let [frequency, at_least] = [Some(mode.frequency_hz), mode.at_least_hz].map(|hz| match hz {
-                Some(hz) => format!("{hz:.decimals$}"),
-                None => "–".to_owned(),
-            });
+            let frequency = format!("{:.decimals$}", mode.frequency_hz);
+            // A bound from below is rounded down.
+            let unit = 10.0f64.powi(decimals as i32);
+            let at_least = mode.at_least_hz.map(|hz| format!("{:.decimals$}", (hz * unit).floor() / unit));
+            let at_least = at_least.unwrap_or_else(|| "–".to_owned());
             let shares = mode.energy_shares.iter().flatten().zip(&assembly.components).filter(|_| several);
             let shares = shares.map(|(share, component)| format!("{} {:.1} %", component.name, 100.0 * share));
             let shares = match mode.kind {

@@ -97,3 +97,25 @@ fn a_file_with_chosen_modes_is_verified_against_its_job() {
     let failed = audit.checks.iter().filter(|check| check.verdict() == Verdict::Fail);
     assert!(failed.map(|check| check.id).any(|id| id == "M-29"), "{:?}", audit.checks);
 }
+
+/// A component without an interface has frequencies and no response: the one limit is met, the others cannot be, whoever says how many
+/// modes are kept.
+#[test]
+fn without_an_interface_frequencies_alone_are_judged() {
+    let [_, (beams, band_end)] = components();
+    let files = Files::new(beams.model.clone(), Vec::new());
+    for modes in ["accept = true", "count = 9"] {
+        for method in ["herting", "craig-bampton"] {
+            for (accept, is_judged) in
+                [("frequency = 1e-3", true), ("response_db = 1.0", false), ("internal_load = 0.1", false)]
+            {
+                let outcome = files.reduce(method, modes, &scene(band_end, accept));
+                assert_eq!(is_met(&outcome), is_judged, "{method}, {modes}, {accept}");
+                let accuracy = &outcome.report.body.preservation.accuracy;
+                let measured = accuracy.iter().any(|accuracy| accuracy.error.is_some_and(|error| error <= 1e-9));
+                // Its modes are those of the full model.
+                assert_eq!(measured, is_judged, "{method}, {modes}, {accept}: {accuracy:?}");
+            }
+        }
+    }
+}

@@ -1,10 +1,11 @@
 //! Frequency response: the iteration against dense elimination, the errors against their definition.
 
+use faer::c64;
 use supel::verification::preservation::Preservation;
 use supel_models::{Inertia, Material, Section, frame};
 
 use crate::chain::{Twin, direct, partition, rigid_group};
-use crate::oracle::{Dense, decibel, reduced};
+use crate::oracle::{Dense, answers, decibel, reduced};
 use crate::run::{Files, block};
 
 const ETA: f64 = 0.03;
@@ -62,6 +63,65 @@ fn response_of_the_full_model_is_that_of_dense_elimination() {
             }
             assert!((response.worst_db - worst).abs() <= 8.7 * tolerance * (1.0 + worst));
         }
+    }
+}
+
+/// The largest error of outputs under a force on each interface dof, dense on both sides, and of all pairs of interface dofs.
+fn with_outputs(files: &Files, file: &supel_runtime::Superelement, hz: f64) -> f64 {
+    let partition = partition(&files.model, &files.interfaces).expect("sound");
+    let (full, dofs) = full(files);
+    let recovery = file.tensors().recovery.as_ref().expect("rows of outputs");
+    let names: Vec<String> = recovery.dofs().iter().map(|dof| format!("node {} {}", dof.node, dof.direction)).collect();
+    let number = |name: &String| (0..partition.n_dofs()).find(|dof| partition.name_of(*dof) == *name).expect("a dof");
+    let places: Vec<usize> = names.iter().map(number).collect();
+    let leading: Vec<usize> = (0..dofs.len()).collect();
+    let (own, cut) = (answers(&full, &dofs, hz, ETA), answers(&reduced(file), &leading, hz, ETA));
+    let mut worst = decibel(&full.response(&dofs, hz, ETA), &reduced(file).response(&leading, hz, ETA));
+    for j in 0..dofs.len() {
+        let inside = |i: usize| -> c64 { (0..cut.nrows()).map(|k| cut[(k, j)] * recovery.rows()[(i, k)]).sum() };
+        let moved = dofs.iter().map(|at| own[(*at, j)].norm());
+        let floor = 1e-3 * moved.fold(0.0, f64::max);
+        for (i, at) in places.iter().enumerate() {
+            let (full, reduced) = (own[(*at, j)], inside(i));
+            let size = full.norm().max(floor);
+            let levels = 20.0 * (reduced.norm().max(floor) / size).log10();
+            let added = 20.0 * (1.0 + (reduced - full).norm() / size).log10();
+            worst = worst.max(levels.abs()).max(added);
+        }
+    }
+    worst
+}
+
+/// What the scene looks at inside is compared with the interface: few outputs, and so many that not all are followed between samples.
+#[test]
+fn outputs_are_compared_with_dense_elimination() {
+    let files = &cases()[0];
+    let many = (6..45).filter(|node| *node != 15).map(|node| node.to_string()).collect::<Vec<_>>().join(", ");
+    for (nodes, n_outputs) in [("23, 31", 6), (many.as_str(), 114)] {
+        let scene = format!("{SCENE}\noutputs = {{ nodes = [{nodes}] }}");
+        let outcome = files.reduce("herting", "count = 6", &scene);
+        let body = &outcome.report.body;
+        let response = response(&body.preservation);
+        assert_eq!(response.n_outputs, n_outputs);
+        let bound = body.checks.iter().find(|check| check.id == "M-21").expect("M-21").value;
+        // Rounding and the bound of the answers as above; rows of the file have 7 digits, which the floor may enlarge a thousand times.
+        let tolerance = rounding(&full(files).0) + bound + 1e3 * f64::from(f32::EPSILON);
+        assert!(tolerance < 1e-2, "{tolerance:e}");
+        let mut largest = 0.0f64;
+        for sample in &response.samples {
+            let expected = with_outputs(files, &outcome.superelement, sample.frequency_hz);
+            let excess = sample.error_db - expected;
+            // What errs less than others at all samples is not among those followed, and may err most at one.
+            let missed = if n_outputs > 48 { 0.0 } else { -excess };
+            assert!(excess.max(missed) <= 8.7 * tolerance * (1.0 + expected), "{sample:?}, expected {expected}");
+            largest = largest.max(expected);
+        }
+        assert!((response.worst_db - largest).abs() <= 8.7 * tolerance * (1.0 + largest), "{largest}");
+        let interface = files.reduce("herting", "count = 6", SCENE);
+        let at_interface = self::response(&interface.report.body.preservation).worst_db;
+        let worst = response.worst_db;
+        assert!(worst > 1.5 * at_interface, "{worst} dB and {at_interface} dB at the interface alone");
+        assert!(response.residual < 1e-6, "{:?}", response.worst_pair);
     }
 }
 

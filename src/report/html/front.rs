@@ -3,7 +3,7 @@
 use super::markup::{Markup, class_of, escaped};
 use super::plot::power_of_ten;
 use crate::number;
-use crate::number::{counted, quantity, scientific};
+use crate::number::{counted, no_less_than, quantity, scientific};
 use crate::report::conclusion::reserved_as;
 use crate::report::words;
 use crate::report::{Completeness, MatrixReport, ModelReport, ReductionReport, ReportBody, RunFacts};
@@ -208,7 +208,7 @@ fn compared_boundaries(preservation: &Preservation) -> Vec<String> {
         .boundaries
         .iter()
         .map(|comparison| {
-            let worst = percent(comparison.worst_in_band);
+            let worst = percent(no_less_than(comparison.worst_in_band, 2));
             let in_band = comparison.frequencies.iter().filter(|pair| pair.in_band);
             let boundary = words::boundary(&comparison.boundary);
             match in_band.map(|pair| pair.full_hz).reduce(f64::max) {
@@ -229,7 +229,7 @@ fn compared_response(preservation: &Preservation) -> Option<String> {
     Some(format!(
         "response, {}: off by at most {} dB, {} Hz to {} Hz",
         words::boundary(&response.boundary),
-        quantity(response.worst_db, 2),
+        quantity(no_less_than(response.worst_db, 2), 2),
         quantity(first.frequency_hz, 4),
         quantity(last.frequency_hz, 5)
     ))

@@ -1,4 +1,4 @@
-//! Frequency response between interface coordinates: full, reduced, error.
+//! Frequency response between interface coordinates and at outputs: full, reduced, error.
 
 use super::front::{in_words, percent};
 use super::markup::{Figure, Markup};
@@ -14,8 +14,9 @@ pub(super) fn response(page: &mut Markup, response: Option<&ResponseComparison>)
     };
     let [driven, observed] = &response.worst_pair;
     let worst = format!(
-        "The largest error between any two interface coordinates is {} dB, at {} Hz, driven at {driven} and observed at \
-         {observed}; resonance peaks shift by at most {}.",
+        "The largest error between any two interface coordinates{} is {} dB, at {} Hz, driven at {driven} and observed \
+         at {observed}; resonance peaks shift by at most {}.",
+        if response.n_outputs > 0 { ", or at an output driven by one," } else { "" },
         quantity(response.worst_db, 3),
         quantity(response.worst_at_hz, 6),
         percent(response.peak_shift)
@@ -44,7 +45,8 @@ pub(super) fn response(page: &mut Markup, response: Option<&ResponseComparison>)
         description: worst,
         caption: format!(
             "Above: response of the worst pair, {driven} to {observed}. Below: the largest error over all pairs of \
-             interface coordinates at each frequency."
+             interface coordinates{} at each frequency.",
+            if response.n_outputs > 0 { " and all outputs" } else { "" }
         ),
     });
 }

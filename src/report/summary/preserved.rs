@@ -22,17 +22,23 @@ pub(crate) fn write(page: &mut Page, preservation: &Preservation) {
     let statics = preservation.statics.iter().map(|statics| statics.relative_difference).fold(0.0, f64::max);
     if !preservation.statics.is_empty() {
         let n = number::counted(preservation.statics.len(), "interface", "interfaces");
-        page.entry("statics", &format!("{n} · stiffness differs by at most {}", number::scientific(statics, 2)));
+        page.entry(
+            "statics",
+            &format!("{n} · stiffness differs by at most {}", number::scientific(number::no_less_than(statics, 2), 2)),
+        );
     }
     if let Some(response) = &preservation.response {
         let [driven, observed] = &response.worst_pair;
         let worst = format!(
             "at most {} dB off at {} Hz, {driven} to {observed}",
-            number::quantity(response.worst_db, 2),
+            number::quantity(number::no_less_than(response.worst_db, 2), 2),
             number::quantity(response.worst_at_hz, 5)
         );
         page.entry("response", &worst);
-        let sampled = number::counted(response.samples.len(), "sample", "samples");
+        let mut sampled = number::counted(response.samples.len(), "sample", "samples");
+        if response.n_outputs > 0 {
+            sampled += &format!(" · {} of outputs", number::counted(response.n_outputs, "dof", "dofs"));
+        }
         let damping = number::quantity(response.damping, 2);
         page.entry(
             "",
@@ -60,5 +66,6 @@ fn boundary(comparison: &BoundaryComparison) -> String {
         return "no elastic frequency in the band".to_owned();
     }
     let frequencies = number::counted(n_in_band, "frequency", "frequencies");
-    format!("{frequencies} in the band · off by at most {}", number::scientific(comparison.worst_in_band, 2))
+    let worst = number::no_less_than(comparison.worst_in_band, 2);
+    format!("{frequencies} in the band · off by at most {}", number::scientific(worst, 2))
 }

@@ -196,8 +196,8 @@ impl Compared {
             self.report.boundaries.extend(comparison);
         }
         let response = if plan.response != ResponseExtent::NotCompared {
-            let loaded = (plan.response == ResponseExtent::WithInternalLoads).then_some(own);
-            self.kept("frequency response", response::compared(evidence, loaded, band_hz, plan.eta))?
+            let response = response::compared((evidence, own), plan.response, (band_hz, plan.eta));
+            self.kept("frequency response", response)?
         } else {
             None
         };

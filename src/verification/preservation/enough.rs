@@ -4,7 +4,7 @@ use super::super::evidence::Evidence;
 use super::compared::Compared;
 use super::interfaces::interfaces;
 use super::outcome::SizeError;
-use super::policy::Plan;
+use super::policy::{Plan, ResponseExtent};
 use super::response;
 use super::sizes::{self, size_error};
 use crate::error::Result;
@@ -30,9 +30,13 @@ pub fn fewest_modes(evidence: &Evidence<'_>, analysis: &Analysis, job: &Job) -> 
         Some(_) => compared.references(evidence, analysis, &interfaces(evidence.partition), &plan)?,
         None => Vec::new(),
     };
-    let loaded = accept.internal_load.map(|_| evidence);
-    let response = match accept.accepts_response() {
-        true => compared.kept("response", response::compared(evidence, loaded, band_hz, plan.eta))?,
+    let extent = match accept.internal_load {
+        Some(_) => ResponseExtent::WithInternalLoads,
+        None => ResponseExtent::AtInterfaces,
+    };
+    // A component without an interface has none, whatever is accepted of it.
+    let response = match accept.accepts_response() && plan.response != ResponseExtent::NotCompared {
+        true => compared.kept("response", response::compared((evidence, evidence), extent, (band_hz, plan.eta)))?,
         false => None,
     };
     let is_measured = accept.frequency.is_none() || references.len() == plan.supports.len();

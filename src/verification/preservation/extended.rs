@@ -14,15 +14,14 @@
 //! Cost: n_B to 2 n_B solves and 24 n' r_e n_B operations for each step, 2 n' (2 r_e + n_B)² for the residuals of all samples
 //! together; memory 5 n' r_e.
 
-use faer::{Mat, c64};
+use faer::{Mat, MatRef};
 use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
 use super::shift::shift;
 use super::space::{FullModel, RESIDUAL, Space, bound_of, coefficients, size_by};
-use crate::cache::{Reader, Writer};
 use crate::dense;
-use crate::eigen::{Equilibrated, Spectral, complex_shift, mass_qr};
+use crate::eigen::{Equilibrated, Spectral, mass_qr};
 use crate::error::Result;
 use crate::factor::SolveOperator;
 use crate::reduction::panel_of;
@@ -291,56 +290,15 @@ impl FullModel for Extended<'_> {
         &self.spectral
     }
 
+    fn basis(&self) -> MatRef<'_, f64> {
+        self.basis.as_ref()
+    }
+
     fn settle(&mut self, samples_hz: &[f64]) -> Result<Option<Vec<f64>>> {
         self.settled(samples_hz).map(Some)
     }
 
     fn bound(&self, frequency_hz: f64) -> Vec<f64> {
         bound_of(self.factor, self.evidence, (self.residual(frequency_hz).parts, self.eta))
-    }
-}
-
-/// A matrix of frequency responses between interface dofs: displacement of the row for a unit force on the column.
-#[derive(Clone, Debug)]
-pub(super) struct Response {
-    parts: [Mat<f64>; 2],
-    /// 1 / (1 + iη).
-    factor: c64,
-}
-
-impl Response {
-    /// The response of a pencil whose leading coordinates are the interface dofs, in scaled units.
-    pub(super) fn of(spectral: &Spectral, evidence: &Evidence<'_>, frequency_hz: f64, eta: f64) -> Self {
-        let z = complex_shift(evidence.partition.scaling.eigenvalue(frequency_hz), eta);
-        let parts = spectral.block(z, evidence.partition.n_interface());
-        Self { parts, factor: c64::new(1.0, 0.0) / c64::new(1.0, eta) }
-    }
-
-    /// Writes it into an entry of a cache.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    pub(super) fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
-        let Self { parts: [re, im], factor } = self;
-        to.columns(re.as_ref())?;
-        to.columns(im.as_ref())?;
-        to.array(&[factor.re, factor.im])
-    }
-
-    /// Reads it; none where the arrays are not those of a response.
-    pub(super) fn read(from: &mut Reader<'_>) -> Option<Self> {
-        let parts = [from.columns()?, from.columns()?];
-        let [re, im] = from.array()?[..] else { return None };
-        Some(Self { parts, factor: c64::new(re, im) })
-    }
-
-    /// n_B.
-    pub(super) fn n(&self) -> usize {
-        self.parts[0].nrows()
-    }
-
-    /// Entry (i, j).
-    pub(super) fn get(&self, i: usize, j: usize) -> c64 {
-        c64::new(self.parts[0][(i, j)], self.parts[1][(i, j)]) * self.factor
     }
 }

@@ -75,6 +75,16 @@ impl Inertia {
     }
 }
 
+/// What turns the displacement of each interface dof into a length: one, or [`rotation_length`] of a rotation.
+pub(super) fn interface_lengths(partition: &Partition) -> Vec<f64> {
+    let length = rotation_length(partition);
+    let of_dof = |dof: usize| match partition.dofs[partition.n_internal + dof].site {
+        Some(site) if site.direction.is_rotation() => length,
+        _ => 1.0,
+    };
+    (0..partition.n_interface()).map(of_dof).collect()
+}
+
 /// Length that turns rotations into displacements: the root mean square distance of the interface nodes from their
 /// centre or, with one node, of the component's dofs from theirs; one without coordinates.
 pub(super) fn rotation_length(partition: &Partition) -> f64 {

@@ -5,7 +5,7 @@
 //! boundaries   frequencies with interfaces held, free, loaded           M-24
 //! counts       how many such frequencies the full model has             M-06
 //! statics      stiffness of each interface by direct solves             M-17
-//! response     frequency response of all pairs of interface dofs        M-20, M-21
+//! response     frequency response between interface dofs, and at outputs  M-20, M-21
 //! loads        internal loads under forces on the interface
 //! scan         where between its samples the response errs most
 //! sizes        these errors for a smaller basis
@@ -28,11 +28,13 @@ mod enough;
 mod explicit_step;
 mod extended;
 mod full;
+mod full_response;
 mod interfaces;
 mod internal_loads;
 mod leading;
 mod levels;
 mod mac;
+mod observed;
 mod outcome;
 mod pair_error;
 mod policy;

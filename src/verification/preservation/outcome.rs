@@ -142,6 +142,8 @@ pub struct ResponseComparison {
     pub damping: f64,
     /// Length that turns rotations into displacements.
     pub rotation_length: f64,
+    /// Dofs of outputs inside that were compared under a force on each interface dof.
+    pub n_outputs: usize,
     /// Largest relative residual of the solves with the full model.
     pub residual: f64,
     /// The pair of dofs with the largest error: driven and observed.

@@ -1,8 +1,8 @@
-//! How much the responses of two models differ, pair by pair of interface dofs.
+//! How much the responses of two models differ, pair by pair of interface dofs, and at outputs under a force on each interface dof.
 
 use faer::c64;
 
-use super::extended::Response;
+use super::observed::Response;
 use crate::dense;
 
 /// A pair that responds this much less than its two driving points do is judged by them: symmetry uncouples such pairs,
@@ -16,10 +16,11 @@ pub(super) struct PairError {
     pub(super) decibel: f64,
 }
 
-/// |H_ij|, or the floor set by its driving points.
+/// |H_ij|, or the floor set by its driving points; of an output by the interface dof that moves most.
 pub(super) fn magnitude(response: &Response, i: usize, j: usize) -> f64 {
     let root = |i: usize| response.get(i, i).norm().sqrt();
-    response.get(i, j).norm().max(UNCOUPLED * root(i) * root(j))
+    let most = if i < response.n() { root(i) * root(j) } else { response.farthest(j) };
+    response.get(i, j).norm().max(UNCOUPLED * most)
 }
 
 /// Roots of the driving-point responses: the floor of a pair is a thousandth of the product of its two.
@@ -27,7 +28,7 @@ fn roots(response: &Response) -> Vec<f64> {
     (0..response.n()).map(|i| length(response.get(i, i)).sqrt()).collect()
 }
 
-/// The pair of interface dofs whose responses differ most.
+/// The pair of interface dofs, or of an output and an interface dof, whose responses differ most.
 pub(super) fn worst_pair(full: &Response, reduced: &Response) -> PairError {
     let roots = roots(full);
     let (mut worst, mut pair) = (0.0, (0, 0));
@@ -39,7 +40,29 @@ pub(super) fn worst_pair(full: &Response, reduced: &Response) -> PairError {
             }
         }
     }
+    for (at, excess) in of_outputs(full, reduced).into_iter().enumerate() {
+        if dense::worse(excess.0, worst) {
+            (worst, pair) = (excess.0, (full.n() + at, excess.1));
+        }
+    }
     PairError { pair, decibel: decibel(worst) }
+}
+
+/// By how much the responses of each output differ at most, and the interface dof that is driven.
+fn of_outputs(full: &Response, reduced: &Response) -> Vec<(f64, usize)> {
+    let floors: Vec<f64> = (0..full.n()).map(|j| UNCOUPLED * full.farthest(j)).collect();
+    let of_output = |i: usize| {
+        floors.iter().enumerate().fold((0.0, 0), |worst, (j, floor)| {
+            let excess = excess(full.get(i, j), reduced.get(i, j), *floor);
+            if dense::worse(excess, worst.0) { (excess, j) } else { worst }
+        })
+    };
+    (full.n()..full.n_rows()).map(of_output).collect()
+}
+
+/// The errors of outputs, in the order of their rows.
+pub(super) fn output_errors(full: &Response, reduced: &Response) -> Vec<f64> {
+    of_outputs(full, reduced).into_iter().map(|(excess, _)| excess).collect()
 }
 
 /// Where between two frequencies the responses of a pair pass nearest to nothing, and how far they differ there.
@@ -56,13 +79,16 @@ pub(super) struct Dip {
 /// frequency to the next the response itself moves by little, so that its chord passes by zero where the response does.
 pub(super) fn worst_dip([full, reduced]: [[&Response; 2]; 2]) -> Dip {
     let roots = full.map(roots);
+    let (n, n_rows) = (full[0].n(), full[0].n_rows());
     let (mut worst, mut at) = (0.0, 0.5);
-    for j in 0..full[0].n() {
-        for i in 0..=j {
+    for j in 0..n {
+        let farthest = full[0].farthest(j).max(full[1].farthest(j));
+        for i in (0..=j).chain(n..n_rows) {
             let chords = [full, reduced].map(|ends| ends.map(|response| response.get(i, j)));
             for place in chords.into_iter().filter_map(nearest_to_zero) {
                 let on = |[a, b]: [c64; 2]| a + (b - a) * place;
-                let floor = UNCOUPLED * (roots[0][i] * roots[0][j]).max(roots[1][i] * roots[1][j]);
+                let most = || (roots[0][i] * roots[0][j]).max(roots[1][i] * roots[1][j]);
+                let floor = UNCOUPLED * if i < n { most() } else { farthest };
                 let excess = excess(on(chords[0]), on(chords[1]), floor);
                 if dense::worse(excess, worst) {
                     (worst, at) = (excess, place);

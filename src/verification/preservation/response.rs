@@ -1,23 +1,30 @@
-//! Frequency response of the reduced against the full model, pair by pair of interface dofs: M-20, M-21.
+//! Frequency response of the reduced against the full model, pair by pair of interface dofs and at the outputs of the scene: M-20, M-21.
+//!
+//! Of many outputs those that err most at the samples are followed between them; at the samples all are looked at.
 
+use faer::MatRef;
 use rayon::prelude::*;
 
 use super::super::check::{Check, Limits};
 use super::super::evidence::Evidence;
-use super::extended::{Extended, Response};
+use super::extended::Extended;
+use super::full_response::{FullResponse, Measured};
 use super::interfaces::rotation_length;
 use super::internal_loads::FullLoads;
-use super::outcome::{ResponseComparison, ResponseSample};
-use super::pair_error::{PairError, magnitude, worst_pair};
+use super::leading::leading;
+use super::observed::{Observed, Outputs, Response};
+use super::outcome::ResponseComparison;
+use super::pair_error::{PairError, output_errors};
+use super::policy::ResponseExtent;
 use super::samples;
-use super::scan::Scan;
+use super::scan::{Scan, highest};
 use super::shift::shift;
 use super::space::{FullModel, Known, Space};
-use crate::cache::{Cache, Key, Kind, Reader, Recorded, Writer, recalled};
+use crate::cache::{Cache, Key, Kind, recalled};
 use crate::dense;
 use crate::eigen::Spectral;
 use crate::error::Result;
-use crate::factor::Storage;
+use crate::factor::{SolveOperator, Storage};
 use crate::number::quantity;
 use crate::reduction::panel_of;
 
@@ -26,64 +33,36 @@ const PASSES: usize = 3;
 /// Share of the largest error by which what a scan foresaw may miss what its samples then show.
 const SETTLED: f64 = 1e-3;
 
-/// The response of the full model at its samples.
-pub(super) struct FullResponse {
-    samples_hz: Vec<f64>,
-    answers: Vec<Response>,
-    eta: f64,
-}
-
-/// The response of the full model and what the comparison with it found.
-struct Measured {
-    full: FullResponse,
-    /// The worst pair, and the sample it is worst at.
-    worst: PairError,
-    at: usize,
-    /// The largest relative residual of the full response.
-    residual: f64,
-    /// Of the last scan.
-    step: f64,
-    peak_shift: f64,
-    /// Bound on the relative error of the full response at its worst sample, and that sample.
-    uncertainty: (f64, f64),
-}
-
-impl Recorded for Measured {
-    const KIND: Kind = Kind::Response;
-
-    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
-        let Self { full, worst, at, residual, step, peak_shift, uncertainty } = self;
-        to.array(&full.samples_hz)?;
-        for answer in &full.answers {
-            answer.write(to)?;
-        }
-        to.counts(&[worst.pair.0, worst.pair.1, *at])?;
-        to.array(&[worst.decibel, *residual, *step, *peak_shift, uncertainty.0, uncertainty.1, full.eta])
-    }
-
-    fn read(from: &mut Reader<'_>) -> Option<Self> {
-        let samples_hz: Vec<f64> = from.array()?;
-        let answers = samples_hz.iter().map(|_| Response::read(from)).collect::<Option<Vec<_>>>()?;
-        let [row, column, at] = from.counts()?[..] else { return None };
-        let [decibel, residual, step, peak_shift, bound, bound_at, eta] = from.array()?[..] else { return None };
-        let (worst, uncertainty) = (PairError { pair: (row, column), decibel }, (bound, bound_at));
-        (at < samples_hz.len()).then_some(Self {
-            full: FullResponse { samples_hz, answers, eta },
-            worst,
-            at,
-            residual,
-            step,
-            peak_shift,
-            uncertainty,
-        })
-    }
-}
+/// Output dofs that are followed between samples at most.
+const FOLLOWED: usize = 48;
 
 /// The answers of the full model, for further reduced models to be compared with.
 pub(super) struct Full<'a> {
-    pub(super) response: FullResponse,
+    response: FullResponse,
+    /// The reduction whose basis it is.
+    own: &'a Evidence<'a>,
+    /// The rows of its outputs on that basis.
+    outputs: Outputs<'a>,
     /// Of its interior, where its internal loads are compared.
     pub(super) loads: Option<FullLoads<'a>>,
+}
+
+impl Full<'_> {
+    /// Largest error of the reduced model that has the leading `n` coordinates, with these matrices, in dB.
+    ///
+    /// # Errors
+    /// A reduced pencil that is not definite.
+    pub(super) fn worst_decibel(
+        &self,
+        (evidence, n): (&Evidence<'_>, usize),
+        (k, m): (MatRef<'_, f64>, MatRef<'_, f64>),
+    ) -> Result<f64> {
+        let reduced = Spectral::of(k, m, shift(evidence)?)?;
+        let (k, m) = leading(self.own, n)?;
+        let of_outputs = Spectral::of(k.as_ref(), m.as_ref(), shift(self.own)?)?;
+        let reduced = Observed::new(&reduced, &of_outputs, &self.outputs);
+        Ok(self.response.worst(evidence, &reduced).0.decibel)
+    }
 }
 
 /// The comparison and the values it rests on.
@@ -94,36 +73,37 @@ pub(super) struct Compared<'a> {
     uncertainty: (f64, f64),
 }
 
-/// Compares the response of all pairs of interface dofs over the band. With a reduction whose internal loads will be compared, samples lie
-/// at all of its resonances.
+/// Compares the response of all pairs of interface dofs, and of outputs, over the band. Where internal loads will be compared, samples lie at
+/// all resonances. What is inside is that of `own`, the reduction with its basis.
 ///
 /// # Errors
 /// A pencil that is not definite.
 pub(super) fn compared<'a>(
-    evidence: &Evidence<'_>,
-    loaded: Option<&'a Evidence<'a>>,
-    band_hz: [f64; 2],
-    eta: f64,
+    (evidence, own): (&Evidence<'_>, &'a Evidence<'a>),
+    extent: ResponseExtent,
+    (band_hz, eta): ([f64; 2], f64),
 ) -> Result<Compared<'a>> {
-    let reduction = evidence.reduction;
-    let reduced = Spectral::of(reduction.stiffness.as_ref(), reduction.mass.as_ref(), shift(evidence)?)?;
-    let task = Task { evidence, reduced: &reduced, band_hz, eta };
-    let (measured, loads) = match loaded {
+    let spectral =
+        |of: &Evidence<'_>| Spectral::of(of.reduction.stiffness.as_ref(), of.reduction.mass.as_ref(), shift(of)?);
+    let (reduced, of_outputs) = (spectral(evidence)?, spectral(own)?);
+    let task = Task { evidence, own, reduced: &reduced, of_outputs: &of_outputs, band_hz, eta };
+    let (measured, loads) = match extent {
         // Internal loads are those of the space that the response was found in.
-        Some(own) => {
+        ResponseExtent::WithInternalLoads => {
             let mut extended = Extended::new(evidence, evidence.factor, eta)?;
             let measured = task.measured_by_solves(First::AllResonances, &mut extended)?.0;
             let loads = FullLoads::new(own, extended, &measured.full.samples_hz, eta)?;
             (measured, Some(loads))
         }
-        None => {
+        ResponseExtent::AtInterfaces | ResponseExtent::NotCompared => {
             let cache = evidence.partition.cache().filter(|_| evidence.factor.storage() == Storage::Double);
             (task.recalled_or_known(cache)?, None)
         }
     };
     let report = task.report(&measured);
     let Measured { full, uncertainty, .. } = measured;
-    Ok(Compared { report, full: Full { response: full, loads }, uncertainty })
+    let outputs = Outputs::of_reduction(own, &full.outputs);
+    Ok(Compared { report, full: Full { response: full, own, outputs, loads }, uncertainty })
 }
 
 /// Resonances among the samples that a comparison starts from.
@@ -138,7 +118,10 @@ enum First {
 /// What is compared.
 struct Task<'t> {
     evidence: &'t Evidence<'t>,
+    own: &'t Evidence<'t>,
     reduced: &'t Spectral,
+    /// The reduced model whose coordinates the basis has columns for.
+    of_outputs: &'t Spectral,
     band_hz: [f64; 2],
     eta: f64,
 }
@@ -201,25 +184,25 @@ impl<'t> Task<'t> {
     /// # Errors
     /// A pencil that is not definite.
     fn measured(&self, first: First, full: &mut dyn FullModel) -> Result<Option<(Measured, Vec<f64>)>> {
-        let Self { evidence, reduced, band_hz, eta } = *self;
+        let Self { evidence, reduced, band_hz, eta, .. } = *self;
         let mut samples_hz = samples::first(evidence, reduced, band_hz);
         if first == First::AllResonances {
             samples_hz = samples::with_resonances(evidence, reduced, &samples_hz);
         }
         let Some(mut residuals) = full.settle(&samples_hz)? else { return Ok(None) };
-        let mut response = FullResponse::new(evidence, full.spectral(), (&samples_hz, eta));
-        let (mut worst, mut at) = response.worst(evidence, reduced);
+        let (mut response, (mut worst, mut at)) = self.answered(full, &samples_hz);
         let mut step = 0.0;
         for _ in 0..PASSES {
-            let scan = Scan { evidence, full: full.spectral(), reduced, eta };
+            let [known, cut_down] = [self.known_model(full, &response.outputs), self.reduced_model(&response.outputs)];
+            let scan = Scan { evidence, full: &known, reduced: &cut_down, eta };
             let found = scan.peaks([samples_hz[0], samples_hz[samples_hz.len() - 1]]);
             step = found.step;
-            let (known, driven) = ((&samples_hz[..], &found.peaks_hz[..]), [worst.pair.0, worst.pair.1]);
-            samples_hz = samples::with_peaks_and_zeros(evidence, full.spectral(), known, driven)?;
+            let driven = [worst.pair.0, worst.pair.1].into_iter().filter(|dof| *dof < evidence.partition.n_interface());
+            let (known, driven) = ((&samples_hz[..], &found.peaks_hz[..]), driven.collect::<Vec<_>>());
+            samples_hz = samples::with_peaks_and_zeros(evidence, full.spectral(), known, &driven)?;
             let Some(settled) = full.settle(&samples_hz)? else { return Ok(None) };
             residuals = settled;
-            response = FullResponse::new(evidence, full.spectral(), (&samples_hz, eta));
-            (worst, at) = response.worst(evidence, reduced);
+            (response, (worst, at)) = self.answered(full, &samples_hz);
             if !dense::worse(found.largest_db, (1.0 + SETTLED) * worst.decibel) {
                 break;
             }
@@ -229,9 +212,58 @@ impl<'t> Task<'t> {
             (0..residuals.len()).fold(0, |a, b| if dense::worse(residuals[b], residuals[a]) { b } else { a });
         let peak_shift = peak_shift(evidence, full.spectral(), reduced, band_hz);
         let bound = full.bound(response.samples_hz[least_known]);
-        let uncertainty = (response.uncertainty(&bound, least_known), response.samples_hz[least_known]);
+        let looked_at = worst.pair.0.checked_sub(bound.len()).map(|row| (row, self.flexibility(response.outputs[row])));
+        let uncertainty = (response.uncertainty((&bound, looked_at), least_known), response.samples_hz[least_known]);
         let measured = Measured { full: response, worst, at, residual, step, peak_shift, uncertainty };
         Ok(Some((measured, residuals)))
+    }
+
+    /// The answers of the full model at samples, with the rows of outputs that are followed, and where the reduced model errs most.
+    fn answered(&self, full: &dyn FullModel, samples_hz: &[f64]) -> (FullResponse, (PairError, usize)) {
+        let outputs = self.followed(full, samples_hz);
+        let known = self.known_model(full, &outputs);
+        let answer = |hz: &f64| Response::of(&known, self.evidence, *hz, self.eta);
+        let answers = samples_hz.par_iter().map(answer).collect();
+        let response = FullResponse { samples_hz: samples_hz.to_vec(), answers, eta: self.eta, outputs };
+        let worst = response.worst(self.evidence, &self.reduced_model(&response.outputs));
+        (response, worst)
+    }
+
+    /// The outputs that err most at samples, by their numbers.
+    fn followed(&self, full: &dyn FullModel, samples_hz: &[f64]) -> Vec<usize> {
+        let all: Vec<usize> = (0..self.own.partition.outputs.len()).collect();
+        if all.len() <= FOLLOWED {
+            return all;
+        }
+        let [known, cut_down] = [self.known_model(full, &all), self.reduced_model(&all)];
+        let of = |model: &Observed<'_>, hz: f64| Response::of(model, self.evidence, hz, self.eta);
+        let errors = |hz: &f64| output_errors(&of(&known, *hz), &of(&cut_down, *hz));
+        let larger = |a: Vec<f64>, b: Vec<f64>| {
+            a.into_iter().zip(b).map(|(a, b)| if dense::worse(b, a) { b } else { a }).collect()
+        };
+        let worst = samples_hz.par_iter().map(errors).reduce(|| vec![0.0; all.len()], larger);
+        let mut most = highest(all.into_iter(), &|at| worst[at], FOLLOWED);
+        most.sort_unstable();
+        most
+    }
+
+    /// The full model as far as it is known, seen at the interface and at outputs.
+    fn known_model<'m>(&self, full: &'m dyn FullModel, outputs: &[usize]) -> Observed<'m> {
+        let rows = Outputs::on(self.own.partition, outputs, full.basis());
+        Observed::new(full.spectral(), full.spectral(), &rows)
+    }
+
+    /// The reduced model, seen there.
+    fn reduced_model(&self, outputs: &[usize]) -> Observed<'t> {
+        Observed::new(self.reduced, self.of_outputs, &Outputs::of_reduction(self.own, outputs))
+    }
+
+    /// √(T_o K_II⁻¹ T_oᵀ / η) of an output. No solve has made the residual of a force on it small, which is the second number of the bound.
+    fn flexibility(&self, output: usize) -> f64 {
+        let load = Outputs::on_dofs(self.own.partition, output);
+        let mut answer = load.clone();
+        self.evidence.factor.solve_in_place(answer.as_mut());
+        (dense::dots(load.as_ref(), answer.as_ref())[0] / self.eta).max(0.0).sqrt()
     }
 
     /// The key of all that [`Task::measured`] takes, from the samples of the reduced model alone.
@@ -242,85 +274,35 @@ impl<'t> Task<'t> {
         let key = evidence.constraint.key(evidence.rigid.key(partition.key("frequency response")));
         let key = key.columns(columns.as_ref()).columns(reduction.stiffness.as_ref()).columns(reduction.mass.as_ref());
         let key = key.numbers(&retained.modes.lambda).shown(&reduction.mass_rank()).shown(&partition.scaling);
-        key.numbers(&[rotation_length(partition)]).numbers(band_hz).numbers(&[*eta])
+        let key = key.numbers(&[rotation_length(partition)]).numbers(band_hz).numbers(&[*eta]);
+        let Self { own, .. } = self;
+        if own.partition.outputs.is_empty() {
+            return key;
+        }
+        let key = key.shown(&own.partition.outputs);
+        key.columns(own.reduction.stiffness.as_ref()).columns(own.reduction.mass.as_ref())
     }
 
     fn report(&self, measured: &Measured) -> ResponseComparison {
         let (evidence, Measured { full, worst, at, .. }) = (self.evidence, measured);
-        let name = |dof: usize| evidence.partition.name_of(evidence.partition.n_internal + dof);
+        let (partition, n_b) = (evidence.partition, evidence.partition.n_interface());
+        let name = |row: usize| match row.checked_sub(n_b) {
+            Some(output) => partition.outputs[full.outputs[output]].dof.to_string(),
+            None => partition.name_of(partition.n_internal + row),
+        };
         ResponseComparison {
             boundary: "free".to_owned(),
             damping: self.eta,
-            rotation_length: rotation_length(evidence.partition),
+            rotation_length: rotation_length(partition),
+            n_outputs: partition.outputs.len(),
             residual: measured.residual,
             worst_pair: [name(worst.pair.1), name(worst.pair.0)],
             worst_db: worst.decibel,
             worst_at_hz: full.samples_hz[*at],
             peak_shift: measured.peak_shift,
             scan_step: measured.step,
-            samples: full.shown(evidence, self.reduced, worst.pair),
+            samples: full.shown(evidence, &self.reduced_model(&full.outputs), worst.pair),
         }
-    }
-}
-
-impl FullResponse {
-    /// The response at samples, by the full model in spectral form.
-    fn new(evidence: &Evidence<'_>, spectral: &Spectral, (samples_hz, eta): (&[f64], f64)) -> Self {
-        let answers = samples_hz.par_iter().map(|hz| Response::of(spectral, evidence, *hz, eta)).collect();
-        Self { samples_hz: samples_hz.to_vec(), answers, eta }
-    }
-
-    /// The worst pair of a reduced model and the sample it is worst at.
-    pub(super) fn worst(&self, evidence: &Evidence<'_>, reduced: &Spectral) -> (PairError, usize) {
-        let start = (PairError { pair: (0, 0), decibel: 0.0 }, 0);
-        self.errors(evidence, reduced).into_iter().enumerate().fold(start, |worst, (at, error)| {
-            if dense::worse(error.decibel, worst.0.decibel) { (error, at) } else { worst }
-        })
-    }
-
-    /// Largest error over all pairs and samples, in dB.
-    pub(super) fn worst_decibel(&self, evidence: &Evidence<'_>, reduced: &Spectral) -> f64 {
-        self.worst(evidence, reduced).0.decibel
-    }
-
-    /// The worst pair of every sample.
-    fn errors(&self, evidence: &Evidence<'_>, reduced: &Spectral) -> Vec<PairError> {
-        let samples = self.samples_hz.par_iter().zip(&self.answers);
-        samples.map(|(hz, full)| worst_pair(full, &Response::of(reduced, evidence, *hz, self.eta))).collect()
-    }
-
-    /// Magnitudes of one pair, and the largest error of all pairs; rotations count as displacements at the length.
-    fn shown(&self, evidence: &Evidence<'_>, reduced: &Spectral, pair: (usize, usize)) -> Vec<ResponseSample> {
-        let partition = evidence.partition;
-        let length = rotation_length(partition);
-        let scale = |dof: usize| match partition.dofs[partition.n_internal + dof].site {
-            Some(site) if site.direction.is_rotation() => length,
-            _ => 1.0,
-        };
-        let unit = scale(pair.0) * scale(pair.1) / partition.scaling.stiffness_unit();
-        let errors = self.errors(evidence, reduced);
-        let sample = |(at, hz): (usize, &f64)| ResponseSample {
-            frequency_hz: *hz,
-            full: unit * self.answers[at].get(pair.0, pair.1).norm(),
-            reduced: unit * Response::of(reduced, evidence, *hz, self.eta).get(pair.0, pair.1).norm(),
-            error_db: errors[at].decibel,
-        };
-        self.samples_hz.iter().enumerate().map(sample).collect()
-    }
-
-    /// Largest bound on the error of an entry of the full response over that entry, at one sample; `bound` as [`FullModel::bound`] has it.
-    fn uncertainty(&self, bound: &[f64], at: usize) -> f64 {
-        let answer = &self.answers[at];
-        let mut largest = 0.0;
-        for j in 0..answer.n() {
-            for i in 0..=j {
-                let relative = bound[i] * bound[j] / magnitude(answer, i, j);
-                if dense::worse(relative, largest) {
-                    largest = relative;
-                }
-            }
-        }
-        largest
     }
 }
 
@@ -343,7 +325,7 @@ pub(super) fn checks(compared: &Compared<'_>) -> [Check; 2] {
         Check {
             id: "M-20",
             name: "frequency response of the interfaces",
-            equation: "max |20 log₁₀ |Ĥ/H||, 20 log₁₀(1 + |Ĥ − H|/|H|) in dB over pairs of dofs and the band",
+            equation: "max |20 log₁₀ |Ĥ/H||, 20 log₁₀(1 + |Ĥ − H|/|H|) in dB over pairs of dofs, outputs and the band",
             value: report.worst_db,
             // How much is tolerable is for the scene to say, and it says nothing.
             limits: Limits::NONE,

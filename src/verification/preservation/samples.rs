@@ -36,7 +36,7 @@ pub(super) fn with_resonances(evidence: &Evidence<'_>, reduced: &Spectral, sampl
     merged(samples.iter().copied().chain(resonances).collect())
 }
 
-/// `samples` with peaks of the error, the elastic frequencies of the full model and the antiresonances at two driving points, which
+/// `samples` with peaks of the error, the elastic frequencies of the full model and the antiresonances at driving points, which
 /// are the frequencies of the reduced model with the dof held.
 ///
 /// # Errors
@@ -45,13 +45,13 @@ pub(super) fn with_peaks_and_zeros(
     evidence: &Evidence<'_>,
     full: &Spectral,
     (samples, peaks): (&[f64], &[f64]),
-    driving_points: [usize; 2],
+    driving_points: &[usize],
 ) -> Result<Vec<f64>> {
     let (start, high) = (samples[0], samples[samples.len() - 1]);
     let within = |all: Vec<f64>| spread(all.into_iter().filter(|hz| (start..=high).contains(hz)).collect());
     let mut all = [samples, peaks].concat();
     all.extend(within(elastic_hz(evidence, full)));
-    for dof in driving_points {
+    for dof in driving_points.iter().copied() {
         let (k, m) = (&evidence.reduction.stiffness, &evidence.reduction.mass);
         let past = |i: usize| if i < dof { i } else { i + 1 };
         let held = |a: &Mat<f64>| Mat::from_fn(a.nrows() - 1, a.nrows() - 1, |i, j| a[(past(i), past(j))]);

@@ -11,10 +11,9 @@
 use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
-use super::extended::Response;
+use super::observed::{Observed, Response};
 use super::pair_error::{Dip, worst_dip, worst_pair};
 use crate::dense;
-use crate::eigen::Spectral;
 
 /// Steps in the width η f of a resonance or antiresonance. Half a step from its top the response is 1/√(1 + 1/16) of the peak: 0.3 dB.
 const STEPS_IN_A_PEAK: f64 = 4.0;
@@ -46,8 +45,8 @@ const SECTIONS: usize = 15;
 pub(super) struct Scan<'a> {
     pub(super) evidence: &'a Evidence<'a>,
     /// The full model as far as it is known.
-    pub(super) full: &'a Spectral,
-    pub(super) reduced: &'a Spectral,
+    pub(super) full: &'a Observed<'a>,
+    pub(super) reduced: &'a Observed<'a>,
     /// Structural damping factor.
     pub(super) eta: f64,
 }
@@ -133,16 +132,16 @@ impl Scan<'_> {
 
     fn n_steps(&self, decades: f64) -> usize {
         let n_b = self.evidence.partition.n_interface() as f64;
-        // Real and imaginary part of n_B × r times r × n_B, for both models.
-        let flops = 4.0 * n_b * n_b * (self.full.n() + self.reduced.n()) as f64;
+        // Real and imaginary part of n_B × r times r × n_B, for both models, and of as many rows more as there are outputs.
+        let flops =
+            4.0 * n_b * (n_b * (self.full.n() + self.reduced.n()) as f64 + self.full.n_seen() + self.reduced.n_seen());
         let dear = ((MAX_FLOPS / flops) as usize).max(MIN_POINTS);
         let step = (self.eta / STEPS_IN_A_PEAK).min(WIDEST_STEP);
         ((decades / step).ceil() as usize).clamp(1, MAX_POINTS.min(dear))
     }
 
     fn point(&self, hz: f64) -> Point {
-        let [full, reduced] =
-            [self.full, self.reduced].map(|spectral| Response::of(spectral, self.evidence, hz, self.eta));
+        let [full, reduced] = [self.full, self.reduced].map(|model| Response::of(model, self.evidence, hz, self.eta));
         Point { hz, full, reduced }
     }
 

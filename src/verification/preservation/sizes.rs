@@ -68,10 +68,7 @@ pub(super) fn size_error(
             frequency_error = error;
         }
     }
-    let response_error_db = match response {
-        Some(full) => Some(full.response.worst_decibel(evidence, &Spectral::of(k, m, shift(evidence)?)?)),
-        None => None,
-    };
+    let response_error_db = response.map(|full| full.worst_decibel((evidence, n), (k, m))).transpose()?;
     let loads = response.and_then(|full| full.loads.as_ref());
     let internal_load_error = loads.map(|loads| loads.worst(n)).transpose()?;
     let n_reduced = n - n_left_out(evidence, n);

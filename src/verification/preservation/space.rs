@@ -30,6 +30,9 @@ pub(super) trait FullModel {
     /// The full model as far as it is known.
     fn spectral(&self) -> &Spectral;
 
+    /// The basis that it is known on, n' × r_e.
+    fn basis(&self) -> MatRef<'_, f64>;
+
     /// Makes the answers at samples known, and says how large the residual of each is; none where this model has no answer to one.
     ///
     /// # Errors
@@ -121,6 +124,10 @@ impl<'a> Known<'a> {
 impl FullModel for Known<'_> {
     fn spectral(&self) -> &Spectral {
         &self.spectral
+    }
+
+    fn basis(&self) -> MatRef<'_, f64> {
+        self.space.basis.as_ref()
     }
 
     fn settle(&mut self, samples_hz: &[f64]) -> Result<Option<Vec<f64>>> {

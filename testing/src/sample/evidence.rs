@@ -195,6 +195,7 @@ fn response() -> ResponseComparison {
         boundary: "free".to_owned(),
         damping: 0.02,
         rotation_length: 83.4,
+        n_outputs: 0,
         residual: 7.3e-9,
         worst_pair: ["hub rx".to_owned(), "foot uz of node 812".to_owned()],
         worst_db: worst.error_db,
