@@ -1640,13 +1640,17 @@ pub enum Error {
     /// The scene has gravity along another direction than the superelement whose matrices are reduced.
     #[entry("E-ASSUMED-GRAVITY", Usage, "reduce the full model for this direction of gravity")]
     #[error(
-        "scene.gravity has another direction than that of the superelement whose matrices are reduced – found ({}, {}, {}) – expected ({}, {}, {}) \
+        "scene.gravity has another direction than that of the superelement whose matrices are reduced – found {} – expected ({}, {}, {}) \
         or none – reduce the full model for this direction of gravity",
-        gravity[0], gravity[1], gravity[2], assumed[0], assumed[1], assumed[2]
+        match gravity {
+            Some([x, y, z]) => format!("({x}, {y}, {z})"),
+            None => "true, which is any direction".to_owned(),
+        },
+        assumed[0], assumed[1], assumed[2]
     )]
     AssumedGravity {
-        /// The direction of the scene.
-        gravity: [f64; 3],
+        /// The direction of the scene; none where it states that any may be.
+        gravity: Option<[f64; 3]>,
         /// That of the model, zero where there is none.
         assumed: [f64; 3],
     },

@@ -51,11 +51,11 @@ pub(crate) fn prepared(
     observer.stage("coordinates");
     let tied = partition::nodes_of_patches(&model, &job.interfaces);
     facts.notes.extend(partition::reference_nodes(&model, &job.interfaces));
-    let model = coordinates::compared(model, &job.model.held_rotations, &tied)?;
+    let model = coordinates::compared(model, (&job.model.held_rotations, job.model.mechanisms), &tied)?;
     facts.notes.extend(coordinates::remark(&model).map(str::to_owned));
 
     observer.stage("partition");
-    let outputs = partition::output_rows(&model, job.scene.as_ref())?;
+    let outputs = partition::outputs(&model, job.scene.as_ref())?;
     let recovered = partition::recovered_rows(&model, job.write.recovery.as_ref())?;
     let faces = input::patch_faces(&job.model, &partition::patches(&model, job), &allowance)?;
     let (recovered, remark) = recovered.with_faces(&faces);
@@ -177,7 +177,7 @@ pub(crate) fn reduced(
         with_reduction(conditioned, (resources, observer), |stages, observer| concluded(&stages, facts, observer))
     };
     let Some(first_hz) = conditioned.plan.searched_hz() else { return made(conditioned.plan, facts, observer) };
-    let mut plan = conditioned.plan.clone();
+    let (mut plan, mut n_widest) = (conditioned.plan.clone(), 0);
     for n_searches in 0..SEARCHES {
         plan = plan.keeping(ModeSelection::UpTo { up_to_hz: first_hz * FURTHER.powi(n_searches) });
         let looking = plan.uncertified();
@@ -187,6 +187,7 @@ pub(crate) fn reduced(
             let fewest = verification::fewest_modes(&stages.evidence, stages.analysis, looking.job())?;
             Ok((fewest, stages.evidence.retained.modes.count()))
         })?;
+        n_widest = n_all;
         let mut next = fewest;
         while let Some(count) = next.filter(|count| *count <= n_all) {
             let facts = facts.remarking(format!(
@@ -201,7 +202,7 @@ pub(crate) fn reduced(
             next = Some(n_kept + n_kept.div_ceil(GROWTH).max(1));
         }
     }
-    made(&plan, facts, observer)
+    made(&plan.keeping(ModeSelection::Count { count: n_widest }), facts, observer)
 }
 
 /// The stages from the modes to the projection.

@@ -38,17 +38,17 @@ impl Comparisons {
         let default = Default::default();
         let scene = job.scene.as_ref().unwrap_or(&default);
         let accept = job.accepted();
-        let none = match (scene.analysis, band) {
+        let never = match (scene.analysis, band) {
             (Some(AnalysisJob::Static), _) => Some("the scene asks for statics alone"),
-            _ if sizes.n_interface == 0.0 => Some("the component has no interface"),
             (_, Band::None) => Some("no elastic mode is computed and the scene gives no band_hz"),
             (_, Band::Known) => None,
         };
+        let no_interface = (sizes.n_interface == 0.0).then_some("the component has no interface");
         let own: Work = stages(sizes).iter().map(|stage| stage.work).sum();
         // A job that asks for more than a count asks for the whole comparison.
         let is_full = !matches!(job.run.certify, Certify::None | Certify::Count);
         let is_stated = is_full || scene.boundaries.is_some() || accept.frequency.is_some();
-        let weigh = |name, work: Work, is_stated: bool| {
+        let weigh = |name, none: Option<&'static str>, work: Work, is_stated: bool| {
             let dear = if is_stated { None } else { dearer(work, own) };
             match none.map(str::to_owned).or(dear) {
                 Some(why) => Stage { name, need: Need::LeftOut(why), work: Work::default() },
@@ -56,9 +56,11 @@ impl Comparisons {
             }
         };
         let of_others = others(sizes, n_supports(job, sizes));
-        let frequencies = weigh("frequencies under other boundaries", of_others, is_stated);
+        // Without an interface there is one boundary, whose frequencies are those of the modes themselves.
+        let none = never.or(no_interface.filter(|_| accept.frequency.is_none()));
+        let frequencies = weigh("frequencies under other boundaries", none, of_others, is_stated);
         let is_stated = is_full || scene.band_hz.is_some() || scene.damping.is_some() || accept.accepts_response();
-        let response = weigh("frequency response", response(sizes), is_stated);
+        let response = weigh("frequency response", never.or(no_interface), response(sizes), is_stated);
         Self { frequencies, response }
     }
 
@@ -90,7 +92,7 @@ impl Comparisons {
 /// Supports under which frequencies are compared.
 fn n_supports(job: &Job, sizes: &Sizes) -> f64 {
     let stated = job.scene.as_ref().and_then(|scene| scene.boundaries.as_ref());
-    stated.map_or(2.0 * sizes.n_interfaces, |stated| stated.len() as f64)
+    stated.map_or((2.0 * sizes.n_interfaces).max(1.0), |stated| stated.len() as f64)
 }
 
 /// Frequencies under so many boundaries: an eigensolution each with the factor that is there, and one count for all.

@@ -3,7 +3,7 @@
 use super::comparison::{Band, Comparisons};
 use super::expected::{ExpectedModes, Known};
 use super::sizes::Sizes;
-use super::stage::{Stage, stages};
+use super::stage::{MODES, Stage, choice_of_modes, stages};
 use crate::error::Warning;
 use crate::factor::Analysis;
 use crate::job::ModeSelection;
@@ -54,6 +54,16 @@ impl Forecast {
         let sizes = Sizes::of(&plan, partition, analysis, (modes.count, text_bytes));
         let comparisons = Comparisons::of(plan.job(), &sizes, band(&plan, modes));
         let mut stages = stages(&sizes);
+        if plan.searched_hz().is_some() {
+            let accept = plan.job().accepted();
+            let compared = [
+                (accept.frequency.is_some(), &comparisons.frequencies),
+                (accept.accepts_response(), &comparisons.response),
+            ];
+            let compared = compared.into_iter().filter(|(is_asked, _)| *is_asked).map(|(_, stage)| stage.work).sum();
+            let modes = stages.iter().position(|stage| stage.name == MODES);
+            stages.insert(modes.map_or(0, |at| at + 1), choice_of_modes(&sizes, compared));
+        }
         stages.extend([comparisons.frequencies, comparisons.response]);
         let compared = Comparisons::in_memory(&plan, (partition, analysis), Some(modes.count));
         let memory = memory_forecast::expected(analysis, partition, (&plan, compared), modes.count);

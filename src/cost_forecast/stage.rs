@@ -10,6 +10,9 @@ const PROBES_OF_CONDITION: f64 = 10.0;
 /// Motions of each interface whose static stiffness is compared.
 const MOTIONS_OF_AN_INTERFACE: f64 = 6.0;
 
+/// The stage that finds the modes.
+pub(super) const MODES: &str = "modes";
+
 /// A stage of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
@@ -66,7 +69,7 @@ pub fn stages(sizes: &Sizes) -> Vec<Stage> {
         stage("rigid-body modes", "the factor, K̂Û = 0", ordered(sizes, 0.4) + sizes.products(24.0)),
         stage("factor", "constraint modes, modes", sizes.factor()),
         stage("constraint modes", "K̂", constraint_modes(sizes)),
-        stage_unless(of_statics, "modes", "the band", modes(sizes)),
+        stage_unless(of_statics, MODES, "the band", modes(sizes)),
         stage_unless(of_proofs(Proofs::Count), "certificate", "that no mode is missing", certificate(sizes)),
         stage("basis", "K̂, rows of recovery", basis(sizes)),
         stage("projection", "the superelement", projection(sizes)),
@@ -74,6 +77,12 @@ pub fn stages(sizes: &Sizes) -> Vec<Stage> {
         stage("verification", "the verdict", verification(sizes)),
         stage("preservation of statics", "the verdict", statics(sizes)),
     ]
+}
+
+/// The choice of the fewest modes that the scene accepts: a basis of all that are looked through, its projection, and these comparisons with
+/// the full model.
+pub(super) fn choice_of_modes(sizes: &Sizes, compared: Work) -> Stage {
+    stage("choice of modes", "the errors that the scene accepts", basis(sizes) + projection(sizes) + compared)
 }
 
 /// Ordering and analysis of the pattern.

@@ -56,8 +56,9 @@ pub(super) fn validate(assumes: &AssumesJob, scene: Option<GravityJob>) -> Resul
     }
     let Some(assumed) = assumes.gravity else { return Ok(()) };
     ranges::finite("model.assumes.gravity", &assumed)?;
-    match scene.and_then(GravityJob::direction) {
-        Some(gravity) if !allows(assumed, gravity) => Err(Error::AssumedGravity { gravity, assumed }),
-        _ => Ok(()),
+    let Some(stated) = scene else { return Ok(()) };
+    match stated.direction() {
+        Some(gravity) if allows(assumed, gravity) => Ok(()),
+        gravity => Err(Error::AssumedGravity { gravity, assumed }),
     }
 }

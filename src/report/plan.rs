@@ -29,7 +29,7 @@ struct Document<'a> {
     format_version: u32,
     generator: Generator,
     model: ModelLine,
-    modes: ExpectedModes,
+    modes: ModesLine,
     stages: Vec<StageLine<'a>>,
     total: TotalLine,
     memory: MemoryLine,
@@ -58,6 +58,13 @@ struct StageLine<'a> {
     left_out: Option<&'a str>,
     #[serde(flatten)]
     cost: TotalLine,
+}
+
+#[derive(Serialize)]
+struct ModesLine {
+    #[serde(flatten)]
+    expected: ExpectedModes,
+    chosen_by: &'static str,
 }
 
 #[derive(Serialize)]
@@ -112,7 +119,10 @@ impl PlanReport<'_> {
             format_version: FORMAT_VERSION,
             generator: Generator::default(),
             model: self.model(),
-            modes: *modes,
+            modes: ModesLine {
+                expected: *modes,
+                chosen_by: if plan.searched_hz().is_some() { "accept" } else { "job" },
+            },
             stages: self.forecast.stages.iter().map(|stage| self.stage(stage)).collect(),
             total: self.cost(&self.total()),
             memory: MemoryLine {
@@ -191,10 +201,20 @@ impl PlanReport<'_> {
 
     fn answer(&self) -> String {
         let Forecast { n_coordinates, file_bytes, modes, .. } = self.forecast;
-        let of_modes = match modes.known {
-            Known::Asked => String::new(),
-            Known::Counted => format!(" with the {} of the band", counted(modes.count, "mode", "modes")),
-            Known::Assumed => {
+        let of_modes = match (modes.known, self.forecast.plan.searched_hz()) {
+            (_, Some(hertz)) => {
+                let most = match modes.known {
+                    Known::Asked | Known::Counted => counted(modes.count, "mode", "modes"),
+                    Known::Assumed => format!("{} modes, a guess that --count-modes replaces,", modes.count),
+                };
+                let band = number::quantity(hertz, 3);
+                format!(
+                    " with all {most} up to {band} Hz that are looked through; the fewest that `accept` allows stay"
+                )
+            }
+            (Known::Asked, None) => String::new(),
+            (Known::Counted, None) => format!(" with the {} of the band", counted(modes.count, "mode", "modes")),
+            (Known::Assumed, None) => {
                 format!(" if the band has {} modes, which is a guess: --count-modes counts them", modes.count)
             }
         };

@@ -84,7 +84,12 @@ fn contradictions_are_refused() {
     supel(&["export", &place.text("x.supel"), "--to", "matrix-market", "--output", &place.text("m")])
         .expect(ExitCode::Done);
     let job = std::fs::read_to_string(place.path("m.job.toml")).expect("a job");
-    for (gravity, code) in [("[0, 1, 0]", ExitCode::Usage), ("[0, 0, -3]", ExitCode::Done), ("false", ExitCode::Done)] {
+    for (gravity, code) in [
+        ("[0, 1, 0]", ExitCode::Usage),
+        ("true", ExitCode::Usage),
+        ("[0, 0, -3]", ExitCode::Done),
+        ("false", ExitCode::Done),
+    ] {
         place.write("n.toml", format!("{job}\n[scene]\ngravity = {gravity}\n").as_bytes());
         let ended = supel(&["reduce", &place.text("n.toml")]).expect(code);
         assert_eq!(ended.err.contains("E-ASSUMED-GRAVITY"), code == ExitCode::Usage, "{}", ended.err);

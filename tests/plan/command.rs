@@ -175,3 +175,24 @@ fn the_run_needs_the_memory_that_the_plan_says() {
         assert!((0.75..1.35).contains(&(foreseen / found)), "{scene}: {foreseen} foreseen, {found} found");
     }
 }
+
+/// Where the scene chooses the modes the plan has those that are looked through, says so, and counts what the choice costs.
+#[test]
+fn modes_that_the_scene_chooses_are_those_looked_through() {
+    let scene = "band_hz = [0, 1500]\naccept = { frequency = 1e-2, response_db = 3.0 }";
+    let case = Case::new(PATCHES, "method = \"herting\", modes = { accept = true }", scene);
+    let plan = planned(&case, &[]);
+    assert_eq!(plan["modes"]["chosen_by"], "accept");
+    let choice = stage(&plan, "choice of modes");
+    let response = stage(&plan, "frequency response");
+    assert!(choice["flops"].as_f64() > response["flops"].as_f64(), "{choice} {response}");
+    let made = case.made();
+    let kept = made.file.tensors().frequencies.len();
+    assert!(plan["modes"]["count"].as_u64() >= Some(kept as u64), "{} of {kept}", plan["modes"]);
+    let place = Place::with(&model());
+    place.write("job.toml", case.job().as_bytes());
+    let said = supel(&["plan", &place.text("job.toml")]).expect(ExitCode::Done).out;
+    let words: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("Hz that are looked through; the fewest that `accept` allows stay"), "{said}");
+    assert_eq!(planned(&Case::new(PATCHES, HERTING, ""), &[])["modes"]["chosen_by"], "job");
+}
