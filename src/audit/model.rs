@@ -236,7 +236,7 @@ impl<'a> Reference<'a> {
     fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
         let is_weighed = !self.motions.is_classical() || self.partition.held.count() > 0;
         let weighed = is_weighed.then(|| verification::of_weighed_body(self.partition)).flatten();
-        let mut checks: Vec<Check> = weighed.into_iter().collect();
+        let mut checks: Vec<Check> = weighed.into_iter().chain(verification::of_parts(self.partition)).collect();
         let has_properties = superelement.metadata().model.mass_properties.is_some();
         checks.extend(mass::stated_of_model(superelement, self.partition));
         let is_expected_here = !has_properties || self.partition.fit.is_preloaded();

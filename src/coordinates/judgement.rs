@@ -7,6 +7,7 @@ use super::motions::{AXES, Motions};
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::dofs::Direction;
 use crate::error::{Error, ErrorClass, Result};
+use crate::job::Mechanisms;
 use crate::model::{CoordinateFit, Misfit};
 use crate::number::quantity;
 use crate::partition::TiedNodes;
@@ -33,16 +34,22 @@ struct Case<'a> {
     free: Vec<Free>,
     /// Motions without energy that the coordinates explain, and rows that move by themselves.
     n_explained: usize,
+    /// What the job says of mechanisms.
+    mechanisms: Mechanisms,
     /// Labels of the nodes that patches tie by their coordinates.
     tied: &'a TiedNodes,
 }
 
 /// Settles the doubts about coordinates, by the motions without energy that K has.
-pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], tied: &TiedNodes) -> Result<CoordinateFit> {
+pub(super) fn settled(
+    motions: &Motions<'_>,
+    doubts: &[Doubt],
+    (mechanisms, tied): (Mechanisms, &TiedNodes),
+) -> Result<CoordinateFit> {
     let momenta = motions.momenta();
     let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
-    let case = Case { motions, doubts, free, n_explained, tied };
+    let case = Case { motions, doubts, free, n_explained, mechanisms, tied };
     let whole = whole(motions)?;
     match doubts.iter().all(|doubt| doubt.costly.is_empty()) {
         true => {
@@ -57,6 +64,23 @@ pub(super) fn settled(motions: &Motions<'_>, doubts: &[Doubt], tied: &TiedNodes)
             }
         }
         false => case.rotations(&Zeros::of(&whole)?),
+    }
+}
+
+/// The fit of coordinates that nothing is said against: where roundings of axes are felt in a body that nothing holds, its motions are those
+/// that K lets pass.
+pub(super) fn with_axes_as_known(motions: &Motions<'_>, doubts: &[Doubt]) -> Result<CoordinateFit> {
+    let is_held = |number: usize| doubts.iter().any(|doubt| doubt.body == number && doubt.n_touched > 0);
+    let bodies = motions.bodies.iter().enumerate();
+    if !bodies.filter(|(number, _)| !is_held(*number)).any(|(_, body)| motions.feels_axes(body)) {
+        return Ok(CoordinateFit::Exact);
+    }
+    let momenta = motions.momenta();
+    let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
+    match Zeros::of(&whole(motions)?) {
+        Ok(zeros) => Ok(CoordinateFit::Rounded(mended(motions, &free, &zeros, None)?)),
+        Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Exact),
+        Err(error) => Err(error),
     }
 }
 
@@ -77,21 +101,36 @@ impl Case<'_> {
         };
         let cost = of_first_elastic(cost(&worst), zeros.first_elastic(0));
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
-        // As many as all bodies have motions: soft supports at most rows leave them some at most, rows along axes that are slightly off all.
-        // Where few rows are touched, something left behind may be held, and the rest is free.
+        // As many as all bodies have motions: soft supports leave them some at most, rows along axes that are off all.
         let n_moving: usize = self.free.iter().map(|free| free.n_moving).sum();
-        let is_askew = self.are_mostly_touched() && zeros.count() >= n_moving;
+        let are_all = zeros.count() >= n_moving;
+        // Where supports touch few rows, parts that move against each other on all others are a held chain of links, which nothing but the job
+        // tells from axes that are off beyond these rows.
+        let is_unmeant_chain =
+            || Ok::<_, Error>(self.mechanisms == Mechanisms::Warn && zeros.n_rigid(motions, doubts)? < zeros.count());
+        let is_askew = are_all && (self.are_mostly_touched() || is_unmeant_chain()?);
         // Where supports touch most rows, the others prove too little; where they touch none, there are no supports.
         let is_unexplained = zeros.count() > self.n_explained
             && (cost.energy > ROUNDED || is_askew)
-            && (self.are_mostly_touched() || n_touched == 0 || zeros.n_rigid(motions, doubts)? > self.n_explained);
+            && (is_askew
+                || self.are_mostly_touched()
+                || n_touched == 0
+                || zeros.n_rigid(motions, doubts)? > self.n_explained);
         if !is_unexplained {
             return Ok(CoordinateFit::Exact);
         }
         zeros.refuse_uncounted()?;
         let costly: Vec<usize> = (0..6).filter(|motion| self.costs_energy(worst, *motion)).collect();
         let place = Place::of(motions, &motions.bodies[worst.body].rows, &costly);
-        Err(self.misfit(zeros, &costly, cost, place.at))
+        let mut error = self.misfit(zeros, &costly, cost, place.at);
+        if let Error::CoordinatesDoNotFit { found, .. } = &mut error
+            && !self.are_mostly_touched()
+            && n_touched > 0
+        {
+            *found +=
+                ", unless it is held there and hinges let the rest move, which `model.mechanisms = \"accept\"` says";
+        }
+        Err(error)
     }
 
     /// Whether supports touch most rows of the bodies in doubt.
@@ -124,7 +163,7 @@ impl Case<'_> {
                 self.supports(zeros)?;
             }
             let misfit = Misfit { rotation: AXES[rotations[0] % 3], energy: cost.energy, of: cost.of, at };
-            return Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, misfit)?));
+            return Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, Some(misfit))?));
         }
         let is_free = worst.costly.iter().any(|costly| costly.is_free);
         if is_free && zeros.count() <= self.n_explained {

@@ -1,11 +1,10 @@
-//! Nodes of held bodies whose mass depends on the direction: rows in frames that the map does not know.
+//! Nodes whose mass depends on the direction: rows in frames that the map does not know, or in another order.
 //!
 //! A unit translation of all nodes gives every node a momentum along it, the same for every direction: the blocks of M that
 //! couple translations are multiples of the identity. In another frame at some nodes the blocks are turned, and K alone could
 //! not tell the frames from supports. A lumped mass, whose blocks couple no two nodes, is the same in every frame. The mass
 //! of nodes with rotations is left out, because a beam's mass differs along it and across it.
 
-use super::doubt::Doubt;
 use super::motions::Motions;
 use super::nodes::Nodes;
 use crate::model::{Finding, Site};
@@ -18,18 +17,14 @@ const DIGITS: f64 = 100.0;
 /// Nodes that a message names.
 const SHOWN_NODES: usize = 3;
 
-/// The nodes of held bodies that have another mass in one direction than in another.
-pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes, doubts: &[Doubt]) -> Option<Finding> {
-    let held: Vec<&Doubt> = doubts.iter().filter(|doubt| doubt.n_touched > 0).collect();
-    if held.is_empty() {
-        return None;
-    }
+/// The nodes that have another mass in one direction than in another.
+pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes) -> Option<Finding> {
     let translations = motions.centred.as_ref().subcols(0, 3);
     let (momenta, terms) = product_and_terms(&motions.model.mass, translations);
     let of_digits = motions.model.precision.mass.terms((&motions.model.mass).into(), translations);
     // The momenta of a node: row by row its three directions, column by column the three translations.
     let (mut rows_of, mut turns) = (vec![[usize::MAX; 3]; nodes.count()], vec![false; nodes.count()]);
-    for row in held.iter().flat_map(|doubt| &motions.bodies[doubt.body].rows) {
+    for row in motions.bodies.iter().flat_map(|body| &body.rows) {
         let Some(Site { direction, .. }) = motions.sites[*row] else { continue };
         match direction.is_rotation() {
             true => turns[nodes.of(*row)] = true,

@@ -1,9 +1,10 @@
-//! Rounded coordinates: the six motions of every row with the motions without energy replaced by those that K has.
+//! Rounded coordinates, or axes of nodes: the six motions of every row with the motions without energy replaced by those that K has.
 
 use faer::{Mat, MatRef};
 
 use super::free::Free;
 use super::motions::Motions;
+use super::nodes::FIRST_ROTATION;
 use super::zeros::Zeros;
 use crate::dense;
 use crate::error::Result;
@@ -19,8 +20,10 @@ pub(super) fn mended(
     motions: &Motions<'_>,
     free: &[Free],
     zeros: &Zeros,
-    misfit: Misfit,
+    misfit: Option<Misfit>,
 ) -> Result<RoundedCoordinates> {
+    // Translations do not depend on coordinates: C′X = Z W is met by the rotations alone. On axes they depend as rotations do.
+    let first = if motions.has_rounded_axes() { 0 } else { FIRST_ROTATION };
     let every: Vec<usize> = (0..motions.sites.len()).collect();
     let centre = Frame::of(motions.sites, &every).centre;
     let mut mended = motions.centred.clone();
@@ -40,11 +43,10 @@ pub(super) fn mended(
         }
         let mut change = dense::product(z.as_ref(), w.as_ref());
         dense::add_product(change.as_mut(), -1.0, q.as_ref(), p.as_ref());
-        // Translations do not depend on coordinates: C′X = Z W is met by the rotations alone.
         let x = dense::product(free.orthonormal.as_ref(), p.as_ref());
-        let change = dense::product(change.as_ref(), right_inverse(x.as_ref().subrows(3, 3))?.as_ref());
+        let change = dense::product(change.as_ref(), right_inverse(x.as_ref().subrows(first, 6 - first))?.as_ref());
         for (i, row) in body.rows.iter().enumerate() {
-            (0..3).for_each(|j| mended[(*row, 3 + j)] += change[(i, j)]);
+            (first..6).for_each(|j| mended[(*row, j)] += change[(i, j - first)]);
         }
         for row in &body.rows {
             let scaled = std::array::from_fn(|j| mended[(*row, j)] * if j < 3 { 1.0 } else { body.frame.size });
@@ -55,15 +57,15 @@ pub(super) fn mended(
     Ok(RoundedCoordinates { misfit, centre, motions: mended })
 }
 
-/// Singular values relative to the largest below which a combination has no rotation.
-const NO_ROTATION: f64 = 1e-9;
+/// Singular values relative to the largest below which a combination is none.
+const NO_MOTION: f64 = 1e-9;
 
-/// The pseudo-inverse of a 3 × m matrix, m × 3.
+/// The pseudo-inverse of a matrix of few rows: of k × m, m × k.
 fn right_inverse(x: MatRef<'_, f64>) -> Result<Mat<f64>> {
     let (squares, vectors) = dense::symmetric_eigen(dense::product(x, x.transpose()).as_ref())?;
     let largest = squares.last().copied().unwrap_or(0.0);
-    let kept: Vec<usize> = (0..squares.len()).filter(|k| squares[*k] > NO_ROTATION * NO_ROTATION * largest).collect();
+    let kept: Vec<usize> = (0..squares.len()).filter(|k| squares[*k] > NO_MOTION * NO_MOTION * largest).collect();
     let u = dense::columns(vectors.as_ref(), &kept);
-    let scaled = Mat::from_fn(3, kept.len(), |i, k| u[(i, k)] / squares[kept[k]]);
+    let scaled = Mat::from_fn(x.nrows(), kept.len(), |i, k| u[(i, k)] / squares[kept[k]]);
     Ok(dense::product(dense::gram(x, scaled.as_ref()).as_ref(), u.transpose()))
 }

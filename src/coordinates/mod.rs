@@ -42,6 +42,7 @@ mod zeros;
 
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
+use crate::job::Mechanisms;
 use crate::model::{CoordinateFit, Finding, Model, Supports};
 use crate::partition::TiedNodes;
 
@@ -65,7 +66,7 @@ pub fn remark(model: &Model) -> Option<&'static str> {
 /// [`Error::CoordinatesDoNotFit`] and [`Error::RotationsHeld`]; those of finding the zero modes of K. Of a preloaded state
 /// [`Error::PreloadCoordinates`], [`Error::PreloadHeld`], [`Error::PreloadUnbalanced`], [`Error::PreloadMisfit`], [`Error::PreloadNone`]
 /// and [`Error::PreloadTied`].
-pub fn compared(model: Model, held: &[Direction], tied: &TiedNodes) -> Result<Model> {
+pub fn compared(model: Model, (held, mechanisms): (&[Direction], Mechanisms), tied: &TiedNodes) -> Result<Model> {
     let Some(sites) = model.sites() else {
         return if model.internal_forces.is_some() { Err(Error::PreloadCoordinates) } else { Ok(model) };
     };
@@ -76,11 +77,19 @@ pub fn compared(model: Model, held: &[Direction], tied: &TiedNodes) -> Result<Mo
     if let Some(forces) = &model.internal_forces {
         preload::confirmed(&motions, &nodes, forces, tied)?;
         let mut findings = model.findings.clone();
-        findings.extend(mass::by_direction(&motions, &nodes, &[]));
+        findings.extend(mass::by_direction(&motions, &nodes));
         return Ok(Model { fit: CoordinateFit::Preloaded, supports: Supports::None, findings, ..model });
     }
     let doubts = doubt::doubts(&motions, &nodes, held);
-    let fit = if doubts.is_empty() { CoordinateFit::Exact } else { judgement::settled(&motions, &doubts, tied)? };
+    let fit = if doubts.is_empty() {
+        CoordinateFit::Exact
+    } else {
+        judgement::settled(&motions, &doubts, (mechanisms, tied))?
+    };
+    let fit = match fit {
+        CoordinateFit::Exact => judgement::with_axes_as_known(&motions, &doubts)?,
+        fit => fit,
+    };
     // Rotations that rounding of the coordinates alone makes costly are no supports, where every translation passes.
     let is_free = doubts.is_empty() || fit.rounded().is_some() && doubts.iter().all(|doubt| doubt.n_touched == 0);
     let supports = if is_free { Supports::None } else { Supports::Perhaps };
@@ -88,6 +97,6 @@ pub fn compared(model: Model, held: &[Direction], tied: &TiedNodes) -> Result<Mo
     findings.extend(doubt::untested(&motions, &doubts));
     findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));
     findings.extend(doubt::not_held(&motions, held));
-    findings.extend(mass::by_direction(&motions, &nodes, &doubts));
+    findings.extend(mass::by_direction(&motions, &nodes));
     Ok(Model { fit, supports, findings, ..model })
 }

@@ -2,6 +2,7 @@
 
 use faer::Mat;
 
+use super::axis_digits::forces_of_rounding;
 use crate::dense;
 use crate::model::{Frame, Model, Site};
 use crate::sparse::{product, product_and_terms};
@@ -23,6 +24,8 @@ pub(super) struct Motions<'a> {
     pub(super) terms: Mat<f64>,
     /// |E||C| of roundings E of K, where an entry may be off by more than a share of itself, n × 6.
     of_digits: Option<Mat<f64>>,
+    /// What roundings of the axes of nodes can make of the forces, n × 6; none where no axes look rounded.
+    of_axes: Option<Mat<f64>>,
     rounding: f64,
 }
 
@@ -76,7 +79,8 @@ impl<'a> Motions<'a> {
                 Some(of_digits) => share_of(of_digits, (&terms, &centred), &bodies),
                 None => rounding.relative,
             };
-        Self { model, sites, bodies, centred, forces, terms, of_digits, rounding }
+        let of_axes = forces_of_rounding(model, &centred);
+        Self { model, sites, bodies, centred, forces, terms, of_digits, of_axes, rounding }
     }
 
     /// M C of each body moving alone, n × 6: what M carries over from one body to another is left out.
@@ -102,6 +106,27 @@ impl<'a> Motions<'a> {
             Some(of_digits) if scale > 0.0 => (0..6).fold(self.rounding, |max, j| max.max(of_digits[(row, j)] / scale)),
             _ => self.rounding,
         }
+    }
+
+    /// What roundings of the axes of nodes can make of the force of a translation at a row.
+    pub(super) fn of_axes_at(&self, row: usize) -> f64 {
+        let of_translations = |of_axes: &Mat<f64>| (0..3).fold(0.0, |max: f64, j| max.max(of_axes[(row, j)]));
+        self.of_axes.as_ref().map_or(0.0, of_translations)
+    }
+
+    /// Whether roundings of axes make forces that nothing else does, at some row of a body.
+    pub(super) fn feels_axes(&self, body: &Body) -> bool {
+        let Some(of_axes) = &self.of_axes else { return false };
+        let is_felt = |row: &usize| {
+            let own = self.rounding_at(*row) * self.scale_of(*row);
+            (0..6).any(|j| of_axes[(*row, j)] > 0.0 && self.forces[(*row, j)].abs() > own)
+        };
+        body.rows.iter().any(is_felt)
+    }
+
+    /// Whether axes of nodes look rounded.
+    pub(super) fn has_rounded_axes(&self) -> bool {
+        self.of_axes.is_some()
     }
 
     /// The size of the terms of a row, over all motions.

@@ -84,9 +84,9 @@ impl Nodes {
     }
 }
 
-/// A force of a translation at a row above which something holds it.
+/// A force of a translation at a row above which something holds it, or above which its axes are off by more than their digits.
 pub(super) fn noticeable_force(motions: &Motions<'_>, row: usize) -> f64 {
-    TOUCHED.max(NOTICEABLE * motions.rounding_at(row)) * motions.scale_of(row)
+    TOUCHED.max(NOTICEABLE * motions.rounding_at(row)) * motions.scale_of(row) + motions.of_axes_at(row)
 }
 
 /// The rotations of which each node lacks a part.

@@ -54,7 +54,7 @@ pub struct AxisDigits {
 }
 
 impl AxisDigits {
-    /// Decimals that leave an angle of a hundred-thousandth, which error bars can hold.
+    /// Decimals that leave an angle of a hundred-thousandth: little enough for what stands at these nodes.
     pub const ENOUGH: i32 = 5;
 
     /// What components may be off by: half a unit of the last decimal.
@@ -62,21 +62,16 @@ impl AxisDigits {
         0.5 * 10f64.powi(-self.decimals)
     }
 
-    /// Whether error bars hold what the digits leave open. Fewer are refused where the stiffness shows that the axes are off.
+    /// Whether what the digits leave open is little. Fewer are refused where the stiffness shows that the axes are off.
     pub fn are_enough(self) -> bool {
         self.decimals >= Self::ENOUGH
     }
 }
 
 impl RoundedAxes {
-    /// The node with the fewest digits of those that error bars hold.
-    pub fn coarsest_in_bars(&self) -> Option<(i64, AxisDigits)> {
-        let of_bars = self.of_node.iter().filter(|(_, digits)| digits.are_enough());
-        of_bars.min_by_key(|(_, digits)| digits.decimals).map(|(node, digits)| (*node, *digits))
-    }
-
-    /// What components may be off by as far as error bars hold it.
-    pub fn off_in_bars(&self) -> f64 {
-        self.coarsest_in_bars().map_or(0.0, |(_, digits)| digits.off())
+    /// The node with the fewest digits of those that have enough.
+    pub fn coarsest_of_enough(&self) -> Option<(i64, AxisDigits)> {
+        let enough = self.of_node.iter().filter(|(_, digits)| digits.are_enough());
+        enough.min_by_key(|(_, digits)| digits.decimals).map(|(node, digits)| (*node, *digits))
     }
 }

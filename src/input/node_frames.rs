@@ -58,8 +58,7 @@ impl NodeFrames {
                 }
             }
         }
-        let off = self.rounded().map_or(0.0, |rounded| rounded.off_in_bars());
-        Ok((Turning::new(dofs.len(), blocks, off), of_node.len()))
+        Ok((Turning::new(dofs.len(), blocks), of_node.len()))
     }
 
     /// The axes that look rounded; none where there are none.

@@ -154,6 +154,19 @@ pub enum Finding {
         /// How many resist some.
         n_rows: usize,
     },
+    /// Constraints of few digits that resist a rigid-body motion a little.
+    ConstraintRounded {
+        /// The one that does so most, from one.
+        row: usize,
+        /// Its dofs.
+        dofs: String,
+        /// The rigid-body motion that it resists.
+        motion: &'static str,
+        /// How many resist some.
+        n_rows: usize,
+        /// By how much of the displacements that it compares.
+        share: f64,
+    },
     /// Interface dofs with mass and no stiffness.
     HangingInterface {
         /// What the first is called.
@@ -170,9 +183,9 @@ impl Finding {
         Some(Self::FreeParticles { rows, first })
     }
 
-    /// Axes of nodes whose digits the error bars hold, where there are some.
+    /// Axes of nodes that have few digits, though enough, where there are some.
     pub(super) fn frame_digits(axes: &RoundedAxes) -> Option<Self> {
-        let (node, AxisDigits { line, decimals }) = axes.coarsest_in_bars()?;
+        let (node, AxisDigits { line, decimals }) = axes.coarsest_of_enough()?;
         let file = axes.path.file_name().unwrap_or(axes.path.as_os_str()).to_string_lossy().into_owned();
         Some(Self::FrameDigits { file, node, line, decimals })
     }
@@ -212,6 +225,7 @@ impl Finding {
             Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
             Self::MassFar { .. } => Some("W-MASS-FAR"),
             Self::ConstraintGround { .. } => Some("W-CONSTRAINT-GROUND"),
+            Self::ConstraintRounded { .. } => Some("W-CONSTRAINT-ROUNDED"),
             Self::HangingInterface { .. } => Some("W-HANGING"),
         }
     }
@@ -273,6 +287,15 @@ impl std::fmt::Display for Finding {
             Self::ConstraintGround { row, dofs, motion, n_rows } => {
                 f.write_str(&to_ground(*row, dofs, motion, *n_rows))
             }
+            Self::ConstraintRounded { row, dofs, motion, n_rows, share } => {
+                let rows = counted(*n_rows, "constraint resists", "constraints resist");
+                write!(
+                    f,
+                    "{rows} rigid-body motion, most of all row {row} ({dofs}) the {motion}, by {share:.0e} of the displacements that it \
+                     compares: its factors or the coordinates have few digits, and the component is held by as much; write them with all \
+                     their digits"
+                )
+            }
             Self::HangingInterface { dof, n_dofs } => {
                 let dofs = counted(*n_dofs, "interface dof has", "interface dofs have");
                 write!(f, "{dofs} mass and no stiffness, the first is {dof}: they move freely")
@@ -322,8 +345,8 @@ fn stiff_rows(n_rows: usize, first: &str, ratio: f64) -> String {
 fn frame_digits(file: &str, [node, line]: [i64; 2], decimals: i32) -> String {
     format!(
         "{file}:{line}: the axes of node {node} are given to {decimals} decimals, which leave an angle of up to {:.0e} rad between the rows and \
-         the axes of the model: error bars hold this, and they are wider than the matrices alone would make them; write the axes \
-         with all their digits",
+         the axes of the model: no frequency depends on it, but what stands along axes at such nodes does; write the axes with all \
+         their digits",
         10f64.powi(-decimals)
     )
 }
@@ -347,7 +370,7 @@ fn coordinates_untested(n_touched: usize, n_rows: usize, largest: f64) -> String
 fn mass_by_direction(n_nodes: usize, at: &str) -> String {
     format!(
         "{} another mass in one direction than in another, listed from the first: {at}; check that they have no local frames, which \
-         in a held component look like supports",
+         in a held component look like supports, and that M has its rows in the order of K",
         counted(n_nodes, "node has", "nodes have")
     )
 }

@@ -18,11 +18,11 @@ pub enum CoordinateFit {
     Preloaded,
 }
 
-/// The rigid-body motions of a model whose coordinates are rounded, as K knows them.
+/// The rigid-body motions of a model whose coordinates, or axes of nodes, are rounded, as K knows them.
 #[derive(Clone, Debug)]
 pub struct RoundedCoordinates {
-    /// The rotation that K lets pass worst by the coordinates as they are.
-    pub misfit: Misfit,
+    /// The rotation that K lets pass worst by the coordinates as they are; none where axes of nodes are rounded instead.
+    pub misfit: Option<Misfit>,
     /// The point that the rotations turn about.
     pub centre: [f64; 3],
     /// The six unit motions of every row about that point, n × 6, without what rounding of the coordinates put into them:

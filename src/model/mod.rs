@@ -34,7 +34,7 @@ pub use heavy_rows::HeavyRows;
 pub use scaling::Scaling;
 pub use site::{Frame, Site, recentred};
 pub use symmetry::{Asymmetry, make_symmetric};
-pub use weight::{Supports, Weight};
+pub use weight::{PartWeight, Supports, Weight};
 
 /// A checked and scaled model.
 #[derive(Clone, Debug)]

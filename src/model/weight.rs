@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use faer::Mat;
 
-use super::Model;
+use super::{Bodies, Model, node_of_row};
 use crate::dense;
+use crate::dofs::Dof;
 use crate::sparse::product;
 
 /// What M says of the six unit motions of all rows together, in scaled units.
@@ -15,10 +16,21 @@ pub struct Weight {
     pub translations: [f64; 3],
     /// UᵀMU of the six unit motions about the origin, 6 × 6, where coordinates are known.
     pub motions: Option<Mat<f64>>,
+    /// The same of each part of several nodes that M couples, where there are several parts: springs carry over no mass.
+    pub parts: Vec<PartWeight>,
     /// Whether every node has all translations or none, so that no direction lacks mass that others have.
     pub has_whole_nodes: bool,
     /// Whether supports may have taken mass out of the matrices before they were read.
     pub supports: Supports,
+}
+
+/// What M says of the six unit motions of a part that it couples with no other.
+#[derive(Clone, Debug)]
+pub struct PartWeight {
+    /// UᵀMU about the origin, 6 × 6.
+    pub motions: Mat<f64>,
+    /// Label of the first of its nodes.
+    pub first_node: i64,
 }
 
 /// What is known of supports that the matrices had before they were read.
@@ -46,7 +58,8 @@ impl Model {
                 (None, _) => {}
             }
         }
-        let mut masses = dense::gram(motions.as_ref(), product(&self.mass, motions.as_ref()).as_ref());
+        let momenta = product(&self.mass, motions.as_ref());
+        let mut masses = dense::gram(motions.as_ref(), momenta.as_ref());
         dense::symmetrise(&mut masses);
         let translations = std::array::from_fn(|axis| masses[(axis, axis)]);
         let mut n_translations: HashMap<i64, usize> = HashMap::new();
@@ -54,7 +67,26 @@ impl Model {
             *n_translations.entry(dof.node).or_default() += 1;
         }
         let has_whole_nodes = n_translations.values().all(|count| *count == 3);
+        let parts = if sites.is_some() { self.weighed_parts(dofs, (&motions, &momenta)) } else { Vec::new() };
         let motions = sites.is_some().then_some(masses);
-        Some(Weight { translations, motions, has_whole_nodes, supports: self.supports })
+        Some(Weight { translations, motions, parts, has_whole_nodes, supports: self.supports })
+    }
+
+    fn weighed_parts(&self, dofs: &[Option<Dof>], (motions, momenta): (&Mat<f64>, &Mat<f64>)) -> Vec<PartWeight> {
+        let nodes = node_of_row(self.n_dofs(), Some(dofs));
+        let coupled = Bodies::of(&self.mass, &nodes);
+        let mut rows_of: Vec<Vec<usize>> = vec![Vec::new(); coupled.n_bodies];
+        coupled.of_row.iter().enumerate().for_each(|(row, part)| rows_of[*part as usize].push(row));
+        let weighed = |rows: &Vec<usize>| {
+            let first = dofs[*rows.first()?]?.node;
+            if rows.iter().all(|row| dofs[*row].is_none_or(|dof| dof.node == first)) {
+                return None;
+            }
+            let of_part = |a: &Mat<f64>| Mat::from_fn(rows.len(), a.ncols(), |i, j| a[(rows[i], j)]);
+            let mut masses = dense::gram(of_part(motions).as_ref(), of_part(momenta).as_ref());
+            dense::symmetrise(&mut masses);
+            Some(PartWeight { motions: masses, first_node: first })
+        };
+        if rows_of.len() < 2 { Vec::new() } else { rows_of.iter().filter_map(weighed).collect() }
     }
 }

@@ -254,7 +254,7 @@ fn warnings(results: &Results<'_>) -> Vec<Warning> {
     for finding in evidence.partition.model.findings.iter().chain(&evidence.partition.findings) {
         warnings.extend(finding.warning().map(|code| Warning { code, message: finding.to_string() }));
     }
-    if let Some(RoundedCoordinates { misfit, .. }) = evidence.partition.fit.rounded() {
+    if let Some(RoundedCoordinates { misfit: Some(misfit), .. }) = evidence.partition.fit.rounded() {
         warnings.push(Warning {
             code: "W-COORD-ROUNDED",
             message: format!(

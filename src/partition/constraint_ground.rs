@@ -16,6 +16,10 @@ use crate::model::{Finding, Frame, Model, Site};
 /// Share of the displacements that a constraint compares, up to which it is rounding: coefficients and coordinates of five digits
 /// leave less.
 const ROUNDED: f64 = 1e-4;
+/// Share up to which nobody rounded: products and sums of doubles leave less.
+const EXACT: f64 = 1e-9;
+/// Share of the largest term of a constraint below which another is what rounding left of none.
+const NOTHING: f64 = 16.0 * f64::EPSILON;
 
 /// A constraint and the motion that it resists.
 struct Resisting<'a> {
@@ -24,7 +28,8 @@ struct Resisting<'a> {
     share: f64,
 }
 
-/// The motion that constraints resist most; none where they let all pass, and where nothing tells the directions of rows.
+/// The motion that constraints resist most; none where they let all pass, and where nothing tells the directions of rows. One that they
+/// resist by as much as few digits leave is told: the component is held all the same.
 ///
 /// # Errors
 /// [`Error::ConstraintGround`] where the job does not accept it.
@@ -36,6 +41,11 @@ pub(super) fn held_motion(model: &Model, given: &ConstraintRows) -> Result<Optio
     };
     let (row, motion, n_rows) = (worst.constraint.row + 1, MOTIONS[worst.motion], resisting.len());
     let dofs = worst.constraint.dofs(model.names());
+    if worst.share <= ROUNDED {
+        let (dofs, share) = (dofs.join(", "), worst.share);
+        return Ok(Some(Finding::ConstraintRounded { row, dofs, motion, n_rows, share }));
+    }
+    let n_rows = resisting.iter().filter(|resisting| resisting.share > ROUNDED).count();
     match given.may_ground {
         true => Ok(Some(Finding::ConstraintGround { row, dofs: dofs.join(", "), motion, n_rows })),
         false => Err(Error::ConstraintGround { row, dofs, motion, share: worst.share, n_rows }),
@@ -82,10 +92,15 @@ impl<'a> Motions<'a> {
     /// The motion that a constraint resists most, relative to displacements of all of its dofs of the size that the motion has anywhere.
     fn resisted<'b>(&self, constraint: &'b Constraint) -> Option<Resisting<'b>> {
         let (mut sums, mut sizes) = ([0.0f64; 6], [0.0f64; 6]);
-        for (row, value) in &constraint.terms {
+        let turns = |row: u32| {
+            let dof = self.model.dofs.as_ref().and_then(|dofs| dofs[row as usize]);
+            dof.is_some_and(|dof| dof.direction.is_rotation())
+        };
+        let size_of = |(row, value): &(u32, f64)| value.abs() / if turns(*row) { self.size } else { 1.0 };
+        let largest = constraint.terms.iter().map(size_of).fold(0.0, f64::max);
+        for (row, value) in constraint.terms.iter().filter(|term| size_of(term) > NOTHING * largest) {
             let motion = self.at(*row as usize);
-            let turns = self.model.dofs.as_ref().and_then(|dofs| dofs[*row as usize]);
-            let turns = turns.is_some_and(|dof| dof.direction.is_rotation());
+            let turns = turns(*row);
             for j in 0..6 {
                 sums[j] += value * motion[j];
                 // A translation leaves rotations at rest; a rotation by one makes displacements of the size of the model.
@@ -99,6 +114,6 @@ impl<'a> Motions<'a> {
         }
         let share = |j: usize| if sizes[j] > 0.0 { sums[j].abs() / sizes[j] } else { 0.0 };
         let motion = (1..6).fold(0, |most, j| if share(j) > share(most) { j } else { most });
-        (share(motion) > ROUNDED).then(|| Resisting { constraint, motion, share: share(motion) })
+        (share(motion) > EXACT).then(|| Resisting { constraint, motion, share: share(motion) })
     }
 }

@@ -62,10 +62,10 @@ impl Rounding {
     pub fn turned(self, turned: TurnedRoundings) -> Self {
         // Of the nine entries that make one up to three in each row of T count in full.
         let of_parts = Self { absolute: 3.0 * self.absolute, is_of_parts: true, n_alike: f64::INFINITY, ..self };
-        if !self.is_coarse() && turned.of_axes == 0.0 {
+        if !self.is_coarse() {
             return of_parts;
         }
-        let relative = (self.relative * turned.enlargement + turned.of_axes).min(1.0);
+        let relative = (self.relative * turned.enlargement).min(1.0);
         Self { relative, share: relative, ..of_parts }
     }
 

@@ -4,6 +4,8 @@
 //! T    n × n    orthogonal: u_file = T u; a block of three rows for each node, whose rows are its axes, the identity elsewhere
 //! TᵀAT          a matrix of the model;  Tᵀx a column of displacements or forces, and the coefficients of a row
 //! ```
+//! T is orthogonal to rounding whatever digits the axes were given with: axes that are off turn the model at a node and leave its
+//! frequencies what they are.
 
 use rayon::prelude::*;
 
@@ -22,8 +24,6 @@ pub struct Turning {
     blocks: Vec<([u32; 3], Axes)>,
     /// Block of each row, and which of its three rows it is; none for a row along the axes of the model.
     places: Vec<Option<(u32, u8)>>,
-    /// What components of the axes may be off by.
-    of_axes: f64,
 }
 
 /// A matrix of the model.
@@ -39,18 +39,16 @@ pub struct Turned {
 pub struct TurnedRoundings {
     /// How many times their own share entries may be off: the rounding of a stiff direction reaches a soft one.
     pub enlargement: f64,
-    /// The share that the rounding of the axes makes.
-    pub of_axes: f64,
 }
 
 impl Turning {
-    /// Of n rows; each row is in one block at most. Components of the axes may be off by `of_axes`.
-    pub fn new(n: usize, blocks: Vec<([u32; 3], Axes)>, of_axes: f64) -> Self {
+    /// Of n rows; each row is in one block at most.
+    pub fn new(n: usize, blocks: Vec<([u32; 3], Axes)>) -> Self {
         let mut places = vec![None; n];
         for ((rows, _), block) in blocks.iter().zip(0u32..) {
             rows.iter().zip(0u8..).for_each(|(row, at)| places[*row as usize] = Some((block, at)));
         }
-        Self { blocks, places, of_axes }
+        Self { blocks, places }
     }
 
     /// Tᵀx in place of x.
@@ -102,8 +100,7 @@ impl Turning {
         );
         let turned = SparseMatrix::new((n, n), pointers, indices, values);
         let sizes = [diagonal(matrix), diagonal(&turned)];
-        let roundings =
-            TurnedRoundings { enlargement: self.enlargement(&sizes), of_axes: self.share_of_axes(&sizes[1]) };
+        let roundings = TurnedRoundings { enlargement: self.enlargement(&sizes) };
         Turned { matrix: turned, roundings }
     }
 
@@ -166,17 +163,6 @@ impl Turning {
         };
         self.blocks.iter().flat_map(|(rows, _)| *rows).map(of_row).fold(1.0, f64::max)
     }
-
-    /// Axes whose components are off by δ are turned by up to 2δ about each axis: an entry gets 2δ of those of the two other directions,
-    /// from either side, each of √(A_kk A_jj) at most. That is 4δ (√(A_kk / A_ii) + √(A_ll / A_ii)) of √(A_ii A_jj).
-    fn share_of_axes(&self, turned: &[f64]) -> f64 {
-        let of_block = |(rows, _): &([u32; 3], Axes)| {
-            let sizes = rows.map(|row| turned[row as usize].max(0.0).sqrt());
-            let [least, most] = [f64::min, f64::max].map(|of| sizes.into_iter().reduce(of).unwrap_or_default());
-            if least > 0.0 { 2.0 * most / least } else { 0.0 }
-        };
-        4.0 * self.of_axes * self.blocks.iter().map(of_block).fold(0.0, f64::max)
-    }
 }
 
 #[cfg(test)]
@@ -213,7 +199,7 @@ mod tests {
 
     #[test]
     fn a_matrix_is_turned_on_both_sides_and_stays_what_it_was_to_the_bit() {
-        let turning = Turning::new(8, vec![([1, 4, 2], AXES)], 0.0);
+        let turning = Turning::new(8, vec![([1, 4, 2], AXES)]);
         let mut t = vec![vec![0.0; 8]; 8];
         (0..8).for_each(|row| turning.shares(row as u32).for_each(|(col, share)| t[row][col as usize] = share));
         for (declared, sign) in [(Declared::Symmetric, 1.0), (Declared::Skew, -1.0)] {
@@ -235,7 +221,7 @@ mod tests {
 
     #[test]
     fn a_column_and_a_row_turn_as_the_matrix_does() {
-        let turning = Turning::new(5, vec![([0, 2, 3], AXES)], 0.0);
+        let turning = Turning::new(5, vec![([0, 2, 3], AXES)]);
         let mut x = [3.0, 5.0, 0.0, 0.0, 7.0];
         turning.turn(&mut x);
         assert_eq!(x, [2.0, 5.0, 2.0, 1.0, 7.0]);
@@ -264,15 +250,14 @@ mod tests {
     /// Soft across and stiff along: in the axes of the model both are of one size, turned back the soft one has the rounding of the other.
     #[test]
     fn rounding_of_a_stiff_direction_reaches_a_soft_one() {
-        let turning = Turning::new(3, vec![([0, 1, 2], AXES)], 0.0);
+        let turning = Turning::new(3, vec![([0, 1, 2], AXES)]);
         let mut triplets = Triplets::default();
         [1e6, 1.0, 1.0].into_iter().zip(0u32..).for_each(|(value, row)| triplets.push(row, row, value));
         let diagonal = triplets.assemble(3, Declared::Symmetric, "a".as_ref()).expect("a matrix").0;
         let there = turning.turned(&diagonal);
         assert!(there.roundings.enlargement < 3.0, "{}", there.roundings.enlargement);
         let transposed: Axes = std::array::from_fn(|i| std::array::from_fn(|j| AXES[j][i]));
-        let back = Turning::new(3, vec![([0, 1, 2], transposed)], 0.0).turned(&there.matrix);
-        assert_eq!(back.roundings.of_axes, 0.0);
+        let back = Turning::new(3, vec![([0, 1, 2], transposed)]).turned(&there.matrix);
         assert!(back.roundings.enlargement > 1e5, "{}", back.roundings.enlargement);
     }
 }

@@ -82,6 +82,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     if !evidence.rigid.is_classical || evidence.partition.held.count() > 0 {
         checks.extend(mass::of_weighed_body(evidence.partition));
     }
+    checks.extend(mass::of_parts(evidence.partition));
     checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));
     checks.extend(mass::expected(evidence));
     checks.extend(attached::flexibility(evidence));

@@ -7,7 +7,7 @@ use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::job::Expectation;
-use crate::model::Supports;
+use crate::model::{PartWeight, Supports};
 use crate::number::quantity;
 use crate::partition::Partition;
 
@@ -129,6 +129,25 @@ pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
     let is_whole = weight.has_whole_nodes && weight.supports == Supports::None;
     let motions = weight.motions.as_ref().filter(|_| is_whole)?;
     Some(of_a_body(motions.as_ref(), partition.precision.mass.share))
+}
+
+/// M-16 of each part of several nodes that M couples with no other, the worst of them: a light part behind springs is nothing in the mass of
+/// all. None where M couples everything, and where supports may have taken rows out before.
+pub(crate) fn of_parts(partition: &Partition) -> Option<Check> {
+    let weight = partition.model.weight.as_ref()?;
+    let is_whole = weight.has_whole_nodes && weight.supports == Supports::None;
+    let of_part = |part: &PartWeight| {
+        let check = of_a_body(part.motions.as_ref(), partition.precision.mass.share);
+        let at = check.worst.as_ref().map(|at| format!("{at} of the part with node {}", part.first_node));
+        Check {
+            name: "mass of each part is that of a body",
+            equation: "max |M_tt − m I|_ij / m, |M_tr + M_trᵀ|_ij / 2√(m J) of parts that M does not couple",
+            worst: at,
+            ..check
+        }
+    };
+    let checks = weight.parts.iter().filter(|_| is_whole).map(of_part);
+    checks.reduce(|worst, next| if dense::worse(next.value, worst.value) { next } else { worst })
 }
 
 /// M-16 against what the job expects.

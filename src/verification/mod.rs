@@ -38,7 +38,9 @@ pub use evidence::Evidence;
 pub use findings::{Findings, RigidBody, verify, verify_statics};
 pub use grounding::{Grounding, Restraint};
 pub use loads::EffectiveMasses;
-pub(crate) use mass::{comparable, expected_by_weight, not_comparable, of_a_body, of_inertia, of_weighed_body};
+pub(crate) use mass::{
+    comparable, expected_by_weight, not_comparable, of_a_body, of_inertia, of_parts, of_weighed_body,
+};
 pub(crate) use penalty::LARGEST_OF_MESHES;
 pub use penalty::{Penalties, penalties};
 pub use preservation::{Compared, fewest_modes, preservation, preservation_of_file};

@@ -75,6 +75,33 @@ fn constraints_that_hold_the_component_to_the_ground() {
     assert_eq!(found.metadata().model.n_dofs, expected.metadata().model.n_dofs);
 }
 
+/// Factors of four digits hold a rotation softly, and the warning names the row; what rounding leaves of a factor is none.
+#[test]
+fn constraints_of_few_digits_are_told() {
+    let (model, hub) = with_hub(&steel_brick(), [1.0, 0.155, 0.115]);
+    let exact = rigid_elements(&model, hub, &[5, 15, 45]);
+    let mut rounded = exact.clone();
+    rounded[1].iter_mut().for_each(|(_, value)| *value *= if value.abs() < 1.0 { 1.0 + 3e-5 } else { 1.0 });
+    let mut dusty = exact.clone();
+    dusty[0].push((row(&model, (1, 1)), 1e-17));
+    for (rows, expected) in [(exact, false), (rounded, true), (dusty, false)] {
+        let case = Case::new(model.clone(), rows);
+        let ended = case.run("", FOOT, CRAIG_BAMPTON, "");
+        let said = format!("{}{}", ended.out, ended.err);
+        assert!(!said.contains("E-CONSTRAINT-GROUND"), "{said}");
+        let (codes, told) = case.told();
+        assert_eq!(codes.iter().any(|code| code == "W-CONSTRAINT-ROUNDED"), expected, "{told}{said}");
+        assert!(!expected || told.contains("row 2 (node"), "{told}");
+    }
+    // Equal rotations of two nodes, and dust along a displacement.
+    let (model, other) = with_hub(&model, [0.0, 0.155, 0.115]);
+    let mut rows: Rows = rigid_elements(&model, hub, &[5, 15, 45]);
+    rows.extend(rigid_elements(&model, other, &[1, 11, 41]));
+    rows.push(vec![(row(&model, (hub, 3)), 1.0), (row(&model, (other, 3)), -1.0), (row(&model, (hub, 1)), 1e-16)]);
+    let case = Case::new(model, rows);
+    case.run("", r#"{ name = "foot", nodes = [3, 33, 8] }"#, CRAIG_BAMPTON, "").expect(ExitCode::Done);
+}
+
 /// Interface dofs are coordinates of the superelement and move independently.
 #[test]
 fn constraints_between_interface_dofs() {

@@ -3,6 +3,7 @@
 use supel::coordinates;
 use supel::error::Error;
 use supel::input::{Digits, Input, MatrixInput};
+use supel::job::Mechanisms;
 use supel::model::Model as Checked;
 use supel_models::transform::{grounded, in_local_frames, join, rounded, supported};
 use supel_models::{Assembler, Inertia, Material, Model, Section, SplitMix64, TetMesh, brick, frame, membrane};
@@ -158,7 +159,11 @@ fn supports_of_any_stiffness_are_no_local_frames() {
                 let askew = if is_flat { held.clone() } else { in_local_frames(&held, &axes_turned_by(0.7), |_| true) };
                 for (how, model) in [("along axes", held), ("askew", askew)] {
                     let Ok(model) = Checked::new(input(&model)) else { continue };
-                    let found = coordinates::compared(model, &[], &supel::partition::TiedNodes::default());
+                    let found = coordinates::compared(
+                        model,
+                        (&[], Mechanisms::default()),
+                        &supel::partition::TiedNodes::default(),
+                    );
                     let is_frame =
                         matches!(&found, Err(error) if error.to_string().contains("along axes of their own"));
                     assert!(!is_frame, "{name}, {n_springs} springs of 1e{exponent} {how}: {:?}", found.err());
@@ -189,4 +194,27 @@ fn a_node_left_behind_is_in_no_local_frame() {
     let model = Model { stiffness: stiffness.finish(), mass: mass.finish(), ..model };
     let found = Checked::new(input(&model)).and_then(|model| compared(model, Ties::None));
     assert!(found.is_ok(), "{:?}", found.err());
+}
+
+/// An upright of a frame whose rows are along axes turned about it moves as a rigid body by its own coordinates, mirrored or turned: to K the
+/// whole is a chain of links that something holds at the joint. Six motions without energy are those of a free component, unless the job
+/// says that mechanisms are meant.
+#[test]
+fn an_upright_along_turned_axes_is_no_held_chain() {
+    let nodes: Vec<[f64; 3]> =
+        (0..6).map(|node| [if node < 3 { 0.0 } else { 1.0 }, 0.0, 0.5 * f64::from(node % 3)]).collect();
+    let edges = [[0, 1], [1, 2], [3, 4], [4, 5], [1, 4]];
+    let sound = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent);
+    let tied = supel::partition::TiedNodes::default();
+    for degrees in [180.0_f64, 90.0, 20.0, 3.0, 1.0] {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        let axes = [[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]];
+        let faulty = in_local_frames(&sound, &axes, |label| label > 3);
+        let settled = |mechanisms| {
+            coordinates::compared(Checked::new(input(&faulty)).expect("a model"), (&[], mechanisms), &tied)
+        };
+        let Err(Error::CoordinatesDoNotFit { found, .. }) = settled(Mechanisms::Warn) else { panic!("{degrees}") };
+        assert!(found.contains("6 motions without energy") && found.contains("mechanisms"), "{degrees}: {found}");
+        assert!(settled(Mechanisms::Accept).is_ok(), "{degrees}");
+    }
 }

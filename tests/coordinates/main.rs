@@ -31,5 +31,5 @@ fn compared(model: Model, ties: Ties) -> Result<Model> {
         Ties::All => TiedNodes { rigid: labels().collect(), ..TiedNodes::default() },
         Ties::None => TiedNodes::default(),
     };
-    supel::coordinates::compared(model, &[], &tied)
+    supel::coordinates::compared(model, (&[], supel::job::Mechanisms::default()), &tied)
 }

@@ -175,6 +175,49 @@ fn a_lumped_mass_direction_by_direction_of_two_bodies() {
     }
 }
 
+/// Two blocks on springs between nodes at one place, the second so many times as light and as soft and with another mass.
+fn on_springs(share: f64, mass: impl Fn(&Model) -> Model) -> Model {
+    let first = block();
+    let length = first.nodes.iter().fold(0.0f64, |max, x| max.max(x[0]));
+    let mut second = mass(&translated(&first, [length, 0.0, 0.0]));
+    second.stiffness.iter_mut().chain(&mut second.mass).for_each(|entry| entry.2 *= share);
+    let mut whole = join(&first, &second, &[]);
+    let row =
+        |label: i64, direction: u8| whole.dofs.iter().position(|dof| *dof == (label, direction)).expect("a row") as u32;
+    let mut stiffness = Assembler::default();
+    stiffness.extend(whole.stiffness.iter().copied());
+    let stiff = share * first.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2));
+    for (a, b) in whole.groups["XMAX"].iter().zip(&whole.groups["B.XMIN"]) {
+        for direction in 0..3 {
+            let [i, j] = [*a, *b].map(|label| row(label, direction));
+            [(i, i, stiff), (j, j, stiff), (i, j, -stiff), (j, i, -stiff)].map(|(i, j, k)| stiffness.add(i, j, k));
+        }
+    }
+    whole.stiffness = stiffness.finish();
+    whole
+}
+
+/// A light part behind springs has a mass of its own to be that of a body.
+#[test]
+fn a_light_part_direction_by_direction() {
+    for share in [1e-3, 1e-5, 1e-6] {
+        let shuffle = |model: &Model| direction_by_direction(model);
+        for (model, code) in
+            [(on_springs(share, Clone::clone), ExitCode::Done), (on_springs(share, shuffle), ExitCode::CheckFailed)]
+        {
+            let place = Place::with(&model);
+            let [a, b] = ["XMIN", "B.XMAX"].map(|name| listed(&model.groups[name]));
+            let flags = format!("--rigid-interface a={a} --rigid-interface b={b} --method herting --modes 5");
+            let ended = place.reduce(&place.model_flags(), &flags);
+            assert_eq!(ended.code, code, "{share:e}: {}{}", ended.out, ended.err);
+        }
+        // A diagonal mass couples nothing: its nodes are named.
+        let place = Place::with(&on_springs(share, |model| direction_by_direction(&lumped_of(model))));
+        let ended = place.reduce(&place.model_flags(), "--interface a=1,2,7 --method herting --modes 5");
+        assert!(ended.out.contains("W-MASS-DIRECTION") || ended.code != ExitCode::Done, "{share:e}: {}", ended.out);
+    }
+}
+
 /// Nodes of a lumped mass permuted: no order contradicts K, and the page says so.
 #[test]
 fn nodes_of_a_lumped_mass_in_another_order_are_not_seen() {

@@ -94,7 +94,11 @@ fn coordinates_of_another_state_count_where_patches_tie() {
         let at = |place: &[f64; 3]| (place[0] - x).abs() < 1e-9;
         let labels = wavy.labels.iter().zip(&wavy.nodes).filter(|(_, place)| at(place)).map(|(label, _)| *label);
         let tied = TiedNodes { rigid: labels.collect(), ..TiedNodes::default() };
-        supel::coordinates::compared(Checked::new(input(&wavy)).expect("a model"), &[], &tied)
+        supel::coordinates::compared(
+            Checked::new(input(&wavy)).expect("a model"),
+            (&[], supel::job::Mechanisms::default()),
+            &tied,
+        )
     };
     let found = tied_at(1.0).map(|model| model.fit);
     assert!(matches!(&found, Err(Error::CoordinatesDoNotFit { .. })), "{found:?}");

@@ -233,13 +233,13 @@ fn mass_negative_by_rounding_is_a_finding() {
     assert_eq!(model.findings, [Finding::NegativeMassByRounding { n_rows: 1 }]);
 }
 
-/// Rows that were turned are sums: the rounding of a stiff direction reaches the others, and what the axes may be off by all of them.
+/// Rows that were turned are sums: the rounding of a stiff direction reaches the others.
 #[test]
 fn turned_rows_know_what_rounding_of_a_stiff_direction_makes() {
     let six_digits = Rounding { absolute: 0.5, ..Rounding::relative(0.5e-5) };
-    let turned = six_digits.turned(TurnedRoundings { enlargement: 40.0, of_axes: 1e-4 });
-    // Relative to the ends: 40 of its own and what the axes make; three times half a unit of fixed point.
-    assert!((turned.of_entry(0.0, 1e6) / 300.0 - 1.0).abs() < 1e-12 && turned.of_entry(0.0, 0.0) == 1.5, "{turned:?}");
-    let binary = Rounding::BINARY.turned(TurnedRoundings { enlargement: 40.0, of_axes: 0.0 });
+    let turned = six_digits.turned(TurnedRoundings { enlargement: 40.0 });
+    // Relative to the ends: 40 of its own; three times half a unit of fixed point.
+    assert!((turned.of_entry(0.0, 1e6) / 200.0 - 1.0).abs() < 1e-12 && turned.of_entry(0.0, 0.0) == 1.5, "{turned:?}");
+    let binary = Rounding::BINARY.turned(TurnedRoundings { enlargement: 40.0 });
     assert!(binary.is_of_parts && !binary.is_coarse(), "{binary:?}");
 }

@@ -114,7 +114,7 @@ pub struct Chain {
 pub fn partition(model: &models::Model, interfaces: &[InterfaceJob]) -> Result<Partition, Error> {
     let model = Model::new(input(model))?;
     let tied = partition::nodes_of_patches(&model, interfaces);
-    Partition::new(coordinates::compared(model, &[], &tied)?, interfaces)
+    Partition::new(coordinates::compared(model, (&[], supel::job::Mechanisms::default()), &tied)?, interfaces)
 }
 
 /// The partition and its rigid-body modes, from coordinates where there are any.
