@@ -89,6 +89,10 @@ pub fn rigid_error(partition: &Partition, modes: &StaticModes<'_>, u: MatRef<'_,
 /// where no other ones carry a motion.
 const LEAST_WEIGHT: f64 = 1e-6;
 
+/// Share of the largest displacement of the interface, in the scales of its dofs, below which a motion leaves a dof at rest: modes of the matrices
+/// have rounding there, which must not carry anything.
+const AT_REST: f64 = 1e-8;
+
 /// A matrix U_B⁺ with U_B⁺ U_B = I, n_r × n_B: least squares with rows weighted by what the solves of their columns lack.
 ///
 /// Backward errors of a solve are ε|K_II||ψ|, so that the root of ψᵀ diag(K_II) ψ measures them, whatever the units. A column that moves
@@ -118,8 +122,11 @@ pub(super) fn left_inverse_by(partition: &Partition, inside: &[f64], u_b: MatRef
     let outer = diagonal(&partition.stiffness).split_off(partition.n_internal);
     let own = |j: usize| (inside[j] + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).max(0.0).sqrt();
     let length = |j: usize| (0..u_b.ncols()).map(|k| u_b[(j, k)].powi(2)).sum::<f64>().sqrt();
-    // A dof without stiffness has no error, and may be the only one of a motion: it counts as much as the least of the others.
-    let least = (0..n_b).map(|j| own(j) * length(j)).filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(1.0);
+    let scale = scales(partition).split_off(partition.n_internal);
+    let largest = (0..n_b).map(|j| scale[j] * length(j)).fold(0.0, f64::max);
+    let moving = (0..n_b).filter(|j| scale[*j] * length(*j) > AT_REST * largest);
+    // A dof without stiffness has no error, and may be the only one of a motion: it counts as much as the least of the others that move.
+    let least = moving.map(|j| own(j) * length(j)).filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(1.0);
     let weight = |j: usize| match (own(j), length(j)) {
         (own, _) if own > 0.0 => own,
         (_, length) if length > 0.0 => least / length,

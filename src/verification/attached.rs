@@ -69,10 +69,10 @@ fn equilibrium(evidence: &Evidence<'_>, attachment: &Attachment) -> Check {
     for columns in panels(partition.n_interface()) {
         let answers = attachment.modes.as_ref().get(.., columns.clone());
         let Residuals { mut residual, mut terms, .. } = rows.residuals(answers, &vec![0.0; columns.len()]);
-        let loads = balanced_units(evidence, columns.clone());
+        let (loads, of_loads) = balanced_units(evidence, columns.clone());
         residual -= &loads;
         let unit = |i: usize, j: usize| f64::from(u8::from(i == n_i + columns.start + j));
-        terms += dense::absolute(loads.as_ref());
+        terms += &of_loads;
         worst.take_columns(&rows, columns.clone(), [answers, residual.as_ref(), terms.as_ref()]);
         // What rounding leaves of the inertia: QᵀF of every entry of MQ.
         let of_motion = Mat::from_fn(loads.nrows(), loads.ncols(), |i, j| digits * (loads[(i, j)] - unit(i, j)).abs());
@@ -83,7 +83,7 @@ fn equilibrium(evidence: &Evidence<'_>, attachment: &Attachment) -> Check {
     Check {
         id: "M-22",
         name: "attachment modes are in equilibrium with inertia",
-        equation: "max |KA − (F − MQQᵀF)|_i / (|K||A| + |F − MQQᵀF|)_i (40)",
+        equation: "max |KA − (F − MQQᵀF)|_i / (|K||A| + |F| + |MQ||QᵀF|)_i (40)",
         value: worst.value,
         limits,
         fail_above: limits.value().max(FAIL),
@@ -91,13 +91,18 @@ fn equilibrium(evidence: &Evidence<'_>, attachment: &Attachment) -> Check {
     }
 }
 
-/// F − MQQᵀF of unit loads on some interface dofs, n' × k.
-fn balanced_units(evidence: &Evidence<'_>, columns: std::ops::Range<usize>) -> Mat<f64> {
+/// F − MQQᵀF of unit loads on some interface dofs, and its terms |F| + |MQ||QᵀF|, n' × k each. A dof of a patch that ties all nodes moves the
+/// component as a rigid body: there nothing is left of a load but the rounding of its terms.
+fn balanced_units(evidence: &Evidence<'_>, columns: std::ops::Range<usize>) -> (Mat<f64>, Mat<f64>) {
     let (n, n_i) = (evidence.partition.n_dofs(), evidence.partition.n_internal);
     let mut loads = Mat::from_fn(n, columns.len(), |i, j| f64::from(u8::from(i == n_i + columns.start + j)));
     let along = dense::gram(evidence.rigid.orthonormal.as_ref(), loads.as_ref());
+    let [momenta, shares] =
+        [evidence.rigid.mass_orthonormal.as_ref(), along.as_ref()].map(|factor| dense::absolute(factor));
+    let mut terms = loads.clone();
+    dense::add_product(terms.as_mut(), 1.0, momenta.as_ref(), shares.as_ref());
     dense::add_product(loads.as_mut(), -1.0, evidence.rigid.mass_orthonormal.as_ref(), along.as_ref());
-    loads
+    (loads, terms)
 }
 
 /// M-17: the flexibility of the interface by the reduced matrices is that of the full ones.
