@@ -4,10 +4,14 @@ use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, MatMut, MatRef};
 
 use super::static_modes::StaticModes;
-use crate::dense::{self, NOISE_FACTOR};
+use crate::dense;
 use crate::partition::Partition;
 use crate::rigid::scales;
 use crate::sparse::{diagonal, panels};
+
+/// Share of the largest displacement of the interface, in the scales of its dofs, below which a motion leaves a dof at rest: modes of the matrices
+/// have rounding there, which carries nothing and is the size of nothing.
+const AT_REST: f64 = 1e-8;
 
 /// The correction of Ψ_S as the interface sees it.
 ///
@@ -61,8 +65,8 @@ pub struct RigidError {
 /// Largest defect of a rigid-body mode relative to the largest displacement of the mode.
 ///
 /// Rounding of a dof is relative to its own scale, and a motion may be small in the dofs of the largest one. A mode that moves
-/// interface dofs alone, that of a free mass at the interface, is measured by those; modes of the matrices have rounding
-/// inside instead of nothing.
+/// interface dofs alone, that of a free mass at the interface or of a part that a hinge leaves to one, is measured by those; modes of the
+/// matrices and of mechanisms have rounding inside instead of nothing.
 pub fn rigid_error(partition: &Partition, modes: &StaticModes<'_>, u: MatRef<'_, f64>) -> RigidError {
     let (u_i, u_b) = u.split_at_row(partition.n_internal);
     let defect = defect(modes, u_i, u_b);
@@ -74,7 +78,7 @@ pub fn rigid_error(partition: &Partition, modes: &StaticModes<'_>, u: MatRef<'_,
             dense::column(u, j).iter().zip(scale).fold(0.0f64, |max, (value, d)| max.max((value * d).abs()))
         };
         let [inner, outer] = [size(u_i, internal), size(u_b, interface)];
-        let largest = if inner > NOISE_FACTOR * f64::EPSILON * outer { inner } else { outer };
+        let largest = if inner > AT_REST * outer { inner } else { outer };
         for (i, (value, d)) in dense::column(defect.as_ref(), j).iter().zip(internal).enumerate() {
             let error = (value * d).abs() / largest;
             if dense::worse(error, worst.value) {
@@ -88,10 +92,6 @@ pub fn rigid_error(partition: &Partition, modes: &StaticModes<'_>, u: MatRef<'_,
 /// Least weight of an interface dof in [`left_inverse`], relative to the root of its stiffness: dofs that move nothing inside count
 /// where no other ones carry a motion.
 const LEAST_WEIGHT: f64 = 1e-6;
-
-/// Share of the largest displacement of the interface, in the scales of its dofs, below which a motion leaves a dof at rest: modes of the matrices
-/// have rounding there, which must not carry anything.
-const AT_REST: f64 = 1e-8;
 
 /// A matrix U_B⁺ with U_B⁺ U_B = I, n_r × n_B: least squares with rows weighted by what the solves of their columns lack.
 ///

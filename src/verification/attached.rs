@@ -83,7 +83,7 @@ fn equilibrium(evidence: &Evidence<'_>, attachment: &Attachment) -> Check {
     Check {
         id: "M-22",
         name: "attachment modes are in equilibrium with inertia",
-        equation: "max |KA − (F − MQQᵀF)|_i / (|K||A| + |F| + |MQ||QᵀF|)_i (40)",
+        equation: "max |KA − (F − MQQᵀF)|_i / (|K||A| + |F| + ‖MQ‖‖QᵀF‖)_i (40)",
         value: worst.value,
         limits,
         fail_above: limits.value().max(FAIL),
@@ -91,18 +91,19 @@ fn equilibrium(evidence: &Evidence<'_>, attachment: &Attachment) -> Check {
     }
 }
 
-/// F − MQQᵀF of unit loads on some interface dofs, and its terms |F| + |MQ||QᵀF|, n' × k each. A dof of a patch that ties all nodes moves the
-/// component as a rigid body: there nothing is left of a load but the rounding of its terms.
+/// F − MQQᵀF of unit loads on some interface dofs, and the size |F| + ‖(MQ)_i‖ ‖QᵀF‖ of each row, n' × k. A dof of a patch that ties all nodes
+/// moves the component as a rigid body: there nothing is left of a load but rounding, for which what Schwarz makes of the inertia stands.
 fn balanced_units(evidence: &Evidence<'_>, columns: std::ops::Range<usize>) -> (Mat<f64>, Mat<f64>) {
     let (n, n_i) = (evidence.partition.n_dofs(), evidence.partition.n_internal);
     let mut loads = Mat::from_fn(n, columns.len(), |i, j| f64::from(u8::from(i == n_i + columns.start + j)));
+    let momenta = evidence.rigid.mass_orthonormal.as_ref();
     let along = dense::gram(evidence.rigid.orthonormal.as_ref(), loads.as_ref());
-    let [momenta, shares] =
-        [evidence.rigid.mass_orthonormal.as_ref(), along.as_ref()].map(|factor| dense::absolute(factor));
-    let mut terms = loads.clone();
-    dense::add_product(terms.as_mut(), 1.0, momenta.as_ref(), shares.as_ref());
-    dense::add_product(loads.as_mut(), -1.0, evidence.rigid.mass_orthonormal.as_ref(), along.as_ref());
-    (loads, terms)
+    let of_row = |i: usize| (0..momenta.ncols()).map(|j| momenta[(i, j)].powi(2)).sum::<f64>().sqrt();
+    let rows: Vec<f64> = (0..n).map(of_row).collect();
+    let shares: Vec<f64> = (0..columns.len()).map(|j| dense::norm(dense::column(along.as_ref(), j))).collect();
+    let sizes = Mat::from_fn(n, columns.len(), |i, j| loads[(i, j)] + rows[i] * shares[j]);
+    dense::add_product(loads.as_mut(), -1.0, momenta, along.as_ref());
+    (loads, sizes)
 }
 
 /// M-17: the flexibility of the interface by the reduced matrices is that of the full ones.
