@@ -42,7 +42,7 @@ pub use crate::eigen::Eigensolver;
 pub use accept::AcceptJob;
 pub use added_mass::AddedMassJob;
 pub use analysis::AnalysisJob;
-pub use assumes::AssumesJob;
+pub use assumes::{AssumesJob, unseen_hz};
 pub use carrier::CarrierJob;
 pub use damping::{ComponentDampingJob, MassActsOn, ModalDampingJob, RayleighJob, RigidMotionDamping};
 pub use document::Notation;

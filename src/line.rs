@@ -52,6 +52,7 @@ pub(crate) fn prepared(
     let tied = partition::nodes_of_patches(&model, &job.interfaces);
     facts.notes.extend(partition::reference_nodes(&model, &job.interfaces));
     let model = coordinates::compared(model, (&job.model.held_rotations, job.model.mechanisms), &tied)?;
+    let model = model.knowing_supports(&job.model.held_rotations);
     facts.notes.extend(coordinates::remark(&model).map(str::to_owned));
 
     observer.stage("partition");

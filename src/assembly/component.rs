@@ -8,6 +8,8 @@ use super::spectrum::Pencil;
 use crate::audit::negative_mass;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::error::{Error, Result};
+use crate::job::unseen_hz;
+use crate::number::{counted, quantity};
 use crate::sparse::energies_of_terms;
 
 /// Energy of a rigid-body motion relative to that of the first mode that no rounding leaves: Û is not that of the matrices then.
@@ -80,6 +82,18 @@ impl Component {
         let mut doubt = doubt(mass.as_ref(), &momenta, doubts);
         doubt += &stiffness * faer::Scale(largest_bar(&superelement));
         Ok(Self { name, superelement, omitted, stiffness, mass, rigid, doubt })
+    }
+
+    /// How many modes it leaves out because nothing starts or sees them, in words; none where it leaves out none.
+    pub fn unseen_modes(&self) -> Option<String> {
+        let all = unseen_hz(&self.superelement);
+        let lowest = all.iter().copied().reduce(f64::min)?;
+        let n = counted(all.len(), "mode", "modes");
+        Some(format!(
+            "{} leaves out {n} that nothing starts or sees, the lowest at {} Hz",
+            self.name,
+            quantity(lowest, 7)
+        ))
     }
 
     /// r.

@@ -163,7 +163,7 @@ impl<'a> Reference<'a> {
             Unseen::LeftOut => couplings(partition, (&asked.modes, asked.boundary), plan.gravity()),
             Unseen::Kept => Vec::new(),
         };
-        let projected = Projected::new(partition, columns, (unit, zero.count()), massive);
+        let projected = Projected::new(partition, columns, (unit, zero.count(), first), massive);
         let noise = energy_noise((partition, &given), asked.known(), first);
         Ok(Self { plan, facts, partition, motions, asked: asked.without_shapes(), couplings, projected, first, noise })
     }
@@ -329,8 +329,8 @@ impl Free {
         };
         let rank = rank_or_attachment(partition, given, plan);
         let is_attached = !is_modal && matches!(rank, Ok(None));
-        let mut motions = KnownMotions::of(&full, given);
-        motions.sight = if is_attached { Sight::Part } else { Sight::Whole };
+        let motions = KnownMotions::of(&full, given);
+        let motions = if is_attached { motions.seen_in_part(given.count()) } else { motions };
         let operator = Factored::new(&full.factor, full.sigma);
         let answers = is_attached.then(|| FreeAnswers::of(partition, &operator, deflated(given, &full.zero)));
         let mixed = match boundary {

@@ -4,10 +4,14 @@ use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, MatMut, MatRef};
 
 use super::static_modes::StaticModes;
-use crate::dense::{self, NOISE_FACTOR};
+use crate::dense;
 use crate::partition::Partition;
 use crate::rigid::scales;
 use crate::sparse::{diagonal, panels};
+
+/// Share of the largest displacement of the interface, in the scales of its dofs, below which a motion leaves a dof at rest: modes of the matrices
+/// have rounding there, which carries nothing and is the size of nothing.
+const AT_REST: f64 = 1e-8;
 
 /// The correction of Ψ_S as the interface sees it.
 ///
@@ -61,8 +65,8 @@ pub struct RigidError {
 /// Largest defect of a rigid-body mode relative to the largest displacement of the mode.
 ///
 /// Rounding of a dof is relative to its own scale, and a motion may be small in the dofs of the largest one. A mode that moves
-/// interface dofs alone, that of a free mass at the interface, is measured by those; modes of the matrices have rounding
-/// inside instead of nothing.
+/// interface dofs alone, that of a free mass at the interface or of a part that a hinge leaves to one, is measured by those; modes of the
+/// matrices and of mechanisms have rounding inside instead of nothing.
 pub fn rigid_error(partition: &Partition, modes: &StaticModes<'_>, u: MatRef<'_, f64>) -> RigidError {
     let (u_i, u_b) = u.split_at_row(partition.n_internal);
     let defect = defect(modes, u_i, u_b);
@@ -74,7 +78,7 @@ pub fn rigid_error(partition: &Partition, modes: &StaticModes<'_>, u: MatRef<'_,
             dense::column(u, j).iter().zip(scale).fold(0.0f64, |max, (value, d)| max.max((value * d).abs()))
         };
         let [inner, outer] = [size(u_i, internal), size(u_b, interface)];
-        let largest = if inner > NOISE_FACTOR * f64::EPSILON * outer { inner } else { outer };
+        let largest = if inner > AT_REST * outer { inner } else { outer };
         for (i, (value, d)) in dense::column(defect.as_ref(), j).iter().zip(internal).enumerate() {
             let error = (value * d).abs() / largest;
             if dense::worse(error, worst.value) {
@@ -118,8 +122,11 @@ pub(super) fn left_inverse_by(partition: &Partition, inside: &[f64], u_b: MatRef
     let outer = diagonal(&partition.stiffness).split_off(partition.n_internal);
     let own = |j: usize| (inside[j] + LEAST_WEIGHT * LEAST_WEIGHT * outer[j]).max(0.0).sqrt();
     let length = |j: usize| (0..u_b.ncols()).map(|k| u_b[(j, k)].powi(2)).sum::<f64>().sqrt();
-    // A dof without stiffness has no error, and may be the only one of a motion: it counts as much as the least of the others.
-    let least = (0..n_b).map(|j| own(j) * length(j)).filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(1.0);
+    let scale = scales(partition).split_off(partition.n_internal);
+    let largest = (0..n_b).map(|j| scale[j] * length(j)).fold(0.0, f64::max);
+    let moving = (0..n_b).filter(|j| scale[*j] * length(*j) > AT_REST * largest);
+    // A dof without stiffness has no error, and may be the only one of a motion: it counts as much as the least of the others that move.
+    let least = moving.map(|j| own(j) * length(j)).filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(1.0);
     let weight = |j: usize| match (own(j), length(j)) {
         (own, _) if own > 0.0 => own,
         (_, length) if length > 0.0 => least / length,

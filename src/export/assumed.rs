@@ -6,7 +6,7 @@ use supel_runtime::{Direction, InterfaceNode, Superelement};
 
 use crate::assembly::{Absence, Assembly, absence};
 use crate::audit::kept_job;
-use crate::job::{AssumesJob, InterfacePart};
+use crate::job::{AssumesJob, InterfacePart, unseen_hz};
 
 /// What a superelement takes for granted, with the names of its interfaces.
 pub(super) fn assumed(superelement: &Superelement) -> AssumesJob {
@@ -30,20 +30,21 @@ pub(super) fn assumed(superelement: &Superelement) -> AssumesJob {
     let is_known = kept_job(superelement).is_some();
     let [at_rest, left_out] =
         [Absence::AtRest, Absence::LeftOut].map(|wanted| if is_known { parts(wanted) } else { Vec::new() });
-    AssumesJob { sentences, gravity: validity.gravity, at_rest, left_out }
+    AssumesJob { sentences, gravity: validity.gravity, at_rest, left_out, unseen_hz: unseen_hz(superelement) }
 }
 
 /// What the components of an assembly take for granted, under their names in it.
 pub(super) fn assumed_by_all(assembly: &Assembly) -> AssumesJob {
     let mut all = AssumesJob::default();
     for component in &assembly.components {
-        let AssumesJob { sentences, gravity, at_rest, left_out } = assumed(&component.superelement);
+        let AssumesJob { sentences, gravity, at_rest, left_out, unseen_hz } = assumed(&component.superelement);
         let part = |part: InterfacePart| InterfacePart(format!("{}.{}", component.name, part.0));
         all.add(AssumesJob {
             sentences: sentences.into_iter().map(|sentence| format!("{}: {sentence}", component.name)).collect(),
             gravity,
             at_rest: at_rest.into_iter().map(part).collect(),
             left_out: left_out.into_iter().map(part).collect(),
+            unseen_hz,
         });
     }
     all

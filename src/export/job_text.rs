@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use toml::Value;
 
 use super::names::Names;
-use crate::job::AssumesJob;
+use crate::job::{AssumesJob, Mechanisms};
 use crate::report::printable;
 
 /// What a job says of the files of a model that stand next to it.
@@ -17,6 +17,7 @@ pub(super) struct JobText {
     pub(super) units: Option<String>,
     /// Directions of rotations that supports hold alone.
     pub(super) held_rotations: Vec<String>,
+    pub(super) mechanisms: Mechanisms,
     pub(super) digits: Option<i64>,
     /// What the superelements take for granted.
     pub(super) assumes: AssumesJob,
@@ -124,6 +125,9 @@ impl JobText {
         self.units.iter().for_each(|units| put("units", units.clone().into()));
         if !self.held_rotations.is_empty() {
             put("held_rotations", self.held_rotations.clone().into());
+        }
+        if self.mechanisms == Mechanisms::Accept {
+            put("mechanisms", "accept".into());
         }
         self.digits.into_iter().for_each(|digits| put("stiffness_digits", digits.into()));
         // Strings and numbers are always TOML.

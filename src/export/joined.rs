@@ -3,20 +3,23 @@
 //! The components leave out modes from some frequency on, and a second reduction cannot have back what they left out. So the job keeps
 //! modes up to the lowest of these frequencies and no further.
 
-use faer::Mat;
+use std::collections::BTreeSet;
+
+use faer::{Mat, MatRef};
 use supel_runtime::{Direction, Flag, Matrix, Superelement};
 use toml::Value;
 
 use super::assumed::assumed_by_all;
-use super::held_mechanism::is_held_and_gives_way;
 use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
-use super::model_job::{HELD_ROWS, MOVING_ROWS, held_rotations, method, n_modes};
+use super::model_job::{HELD_ROWS, MOVING_ROWS, held_rotations, mechanisms, method, n_modes};
+use super::strainless_motion::{gives_way, is_held_and_gives_way, rotations_held_alone};
 use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members, Omitted};
 use crate::dense::{self, unpacked};
 use crate::error::Result;
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
 use crate::input::strainless::{self, balance, lengths};
+use crate::job::Mechanisms;
 use crate::number::quantity;
 
 /// An assembly that leaves as one model.
@@ -40,6 +43,8 @@ impl Joined {
         let mut notes = assembly.notes.clone();
         notes.extend(assembly.joined_to_nothing().map(|name| format!("{name} is joined to nothing")));
         notes.extend(assembly.components.iter().filter_map(left_behind));
+        let unseen = assembly.components.iter().filter_map(Component::unseen_modes);
+        notes.extend(unseen.map(|unseen| format!("{unseen}: the whole has them in addition to what the model has")));
         notes.extend(
             assumed_by_all(assembly).sentences.into_iter().map(|sentence| format!("takes for granted: {sentence}")),
         );
@@ -110,9 +115,6 @@ fn without_job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) ->
 
 fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<JobText> {
     let superelements = || assembly.components.iter().map(|component| &component.superelement);
-    let mut held: Vec<String> = superelements().flat_map(held_rotations).collect();
-    held.sort();
-    held.dedup();
     let (method, relief) = method_of_whole(assembly);
     let band = band(assembly);
     let n_still = if matches!(method, "herting" | "rubin") { model.rigid.ncols() } else { model.n_interface() };
@@ -130,6 +132,12 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
         is_held_and_gives_way((&places(model), &dense::diagonal(model.mass.as_ref())), model.rigid.as_ref())?
             .then_some(HELD_ROWS)
     };
+    let mut held: BTreeSet<String> = superelements().flat_map(held_rotations).collect();
+    if without_nodes.is_none() {
+        let rows = (&*places(model), &*dense::diagonal(model.mass.as_ref()));
+        let found = rotations_held_alone(rows, matrices(model), model.rigid.as_ref())?;
+        held.extend(found.iter().map(ToString::to_string));
+    }
     let mut remarks = remarks(assembly, &band);
     remarks.extend(without_nodes.map(str::to_owned));
     let selection = |own: &JoinedSelection| match without_nodes {
@@ -140,7 +148,8 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
         remarks,
         map: if model.nodes.is_empty() || without_nodes.is_some() { Map::Rows } else { Map::Nodes },
         units: superelements().find_map(|superelement| superelement.metadata().units.clone()),
-        held_rotations: held,
+        held_rotations: held.into_iter().collect(),
+        mechanisms: mechanisms_of_whole(assembly, model)?,
         digits,
         assumes: assumed_by_all(assembly),
         interfaces: model.interfaces.iter().map(selection).collect(),
@@ -151,6 +160,19 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
         relief,
         held: None,
     })
+}
+
+fn matrices(model: &JoinedModel) -> [MatRef<'_, f64>; 2] {
+    [model.stiffness.as_ref(), model.mass.as_ref()]
+}
+
+/// Mechanisms are meant where a component says so, and where joints leave one.
+fn mechanisms_of_whole(assembly: &Assembly, model: &JoinedModel) -> Result<Mechanisms> {
+    let is_said = |component: &Component| mechanisms(&component.superelement) == Mechanisms::Accept;
+    let rows = (&*places(model), &*dense::diagonal(model.mass.as_ref()));
+    let is_meant = assembly.components.iter().any(is_said)
+        || !assembly.joints.is_empty() && gives_way(rows, matrices(model), model.rigid.as_ref())?;
+    Ok(if is_meant { Mechanisms::Accept } else { Mechanisms::Warn })
 }
 
 /// Herting's method where all components are in its coordinates, Rubin's where an interface leaves rigid-body motion free, Guyan's where none has modes; modes with the interface held otherwise.

@@ -5,7 +5,6 @@
 
 mod assumed;
 mod format;
-mod held_mechanism;
 mod job_text;
 mod joined;
 mod left_behind;
@@ -16,6 +15,7 @@ mod names;
 mod op4;
 mod op4_binary;
 mod op4_content;
+mod strainless_motion;
 
 pub use format::{ExportedFile, Format};
 pub use joined::Joined;

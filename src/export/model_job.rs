@@ -5,18 +5,20 @@ use std::ffi::OsStr;
 use std::path::Path;
 
 use faer::Mat;
+use serde::Deserialize;
 use supel_runtime::{Coordinate, Flag, InterfaceNode, Matrix, Metadata, Method, Superelement};
 
 use super::assumed::assumed;
-use super::held_mechanism::is_held_and_gives_way;
 use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
 use super::names::Names;
+use super::strainless_motion::{is_held_and_gives_way, rotations_held_alone};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
 use crate::input::strainless::{Condensed, condensed_stiffness, masses, places};
 use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
+use crate::job::Mechanisms;
 use crate::report::printable;
 
 /// The job that reduces the superelement in the file `path` as it is, TOML: its matrices, its nodes and its loads are read of that file. With
@@ -62,7 +64,12 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
         remarks,
         map: if has_map { Map::Nodes } else { Map::Rows },
         units: superelement.metadata().units.clone(),
-        held_rotations: held_rotations(superelement),
+        held_rotations: if has_map {
+            with_held_alone(superelement, &condensed.stiffness)?
+        } else {
+            held_rotations(superelement)
+        },
+        mechanisms: mechanisms(superelement),
         digits,
         assumes: assumed(superelement),
         interfaces: if has_map || labels.is_empty() {
@@ -123,6 +130,22 @@ pub(super) const HELD_ROWS: &str =
 pub(super) fn held_rotations(superelement: &Superelement) -> Vec<String> {
     let held = superelement.metadata().job["model"]["held_rotations"].as_array().into_iter().flatten();
     held.filter_map(|direction| direction.as_str().map(str::to_owned)).collect()
+}
+
+/// Rotations that supports hold alone, by the job and by the motions of the superelement: its job may hold them as dofs that are at rest.
+fn with_held_alone(superelement: &Superelement, stiffness: &Matrix) -> Result<Vec<String>> {
+    let tensors = superelement.tensors();
+    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    let rows = (&*places(superelement), &*masses(superelement));
+    let found = rotations_held_alone(rows, [k.as_ref(), m.as_ref()], u.as_ref())?;
+    let all: BTreeSet<String> =
+        held_rotations(superelement).into_iter().chain(found.iter().map(ToString::to_string)).collect();
+    Ok(all.into_iter().collect())
+}
+
+/// What the job of the superelement says of mechanisms.
+pub(super) fn mechanisms(superelement: &Superelement) -> Mechanisms {
+    Mechanisms::deserialize(&superelement.metadata().job["model"]["mechanisms"]).unwrap_or_default()
 }
 
 /// One table for each interface; rows where there are no nodes.
@@ -211,13 +234,13 @@ fn held_interfaces(metadata: &Metadata) -> Vec<String> {
 const HELD_IN_PART: &str = "Rows of one interface cannot be held in part: the method is craig-bampton.";
 
 /// How many modes it keeps again. Modes that were left out because others span them are found again, as far as there are coordinates for
-/// them.
+/// them; modes that nothing starts or sees are not.
 pub(super) fn n_modes(superelement: &Superelement) -> usize {
     let metadata = superelement.metadata();
     let is_mode = |coordinate: &&Coordinate| {
         coordinate.mode().is_some() || matches!(coordinate, Coordinate::ExpansionMode { .. })
     };
-    let n_named = metadata.named_columns().filter(is_mode).count();
+    let n_named = metadata.named_columns().filter(is_mode).count() - metadata.unseen_modes().count();
     let n_still = match metadata.method {
         Method::Herting | Method::Rubin | Method::Macneal => superelement.n_rigid(),
         Method::CraigBampton | Method::ModeAcceleration | Method::MixedInterface | Method::Guyan => {

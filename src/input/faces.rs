@@ -188,32 +188,48 @@ impl<'a> Gathered<'a> {
         if cell.n_nodes() == cell.n_corners() {
             return with(Vec::new(), None);
         }
-        let ends = |at: usize| [face[at], face[(at + 1) % face.len()]];
-        let middles_in = |edges: &cell::Edges| -> Option<(Vec<usize>, Vec<[f64; 3]>)> {
-            let middle = |at: usize| {
-                let [a, b] = ends(at);
-                let edge = edges.iter().position(|edge| *edge == [a, b] || *edge == [b, a])?;
-                let node = cell.n_corners() + edge;
-                Some((nodes[node], place(node)?))
-            };
-            (0..face.len()).map(middle).collect()
-        };
-        let known: Vec<(Vec<usize>, Vec<[f64; 3]>)> = cell.orders().iter().filter_map(middles_in).collect();
-        let fit = |(_, middles): &&(Vec<usize>, Vec<[f64; 3]>)| misfit(&corners, middles);
-        let best = known.iter().min_by(|a, b| fit(a).total_cmp(&fit(b)));
-        let Some((others, middles)) = best else { return Nodes::Elsewhere };
-        if misfit(&corners, middles) > NEAR_MIDDLE {
+        let (middles, fit) = self.middles((patch, cell), nodes, face);
+        let Some(middles) = middles else { return Nodes::Elsewhere };
+        if fit > NEAR_MIDDLE {
             return Nodes::Unclear;
         }
+        let others: Vec<usize> = middles.iter().map(|node| nodes[*node]).collect();
+        let middles: Vec<[f64; 3]> = others.iter().map(|node| self.place(patch, *node)).collect();
         let has_centre = face.len() == 4 || cell.is_surface();
         if has_centre && cell.first_central() < cell.n_nodes() {
-            let middle = mean(middles);
+            let middle = mean(&middles);
             let size = (0..face.len()).map(|at| distance(corners[at], middle)).fold(0.0, f64::max);
             let is_centre = |node: &usize| place(*node).is_some_and(|at| distance(at, middle) <= NEAR_MIDDLE * size);
             let Some(centre) = (cell.first_central()..cell.n_nodes()).find(is_centre) else { return Nodes::Elsewhere };
-            return with(others.clone(), Some(nodes[centre]));
+            return with(others, Some(nodes[centre]));
         }
-        with(others.clone(), None)
+        with(others, None)
+    }
+
+    /// The nodes of the edges of a face in the order that fits best, and how well; none where one of them is not in the patch. The order is
+    /// that of the cell, whichever of its nodes a patch has: where none fits, any that has all nodes in the patch may be it.
+    fn middles(&self, (patch, cell): (u32, Cell), nodes: &[usize], face: &[usize]) -> (Option<Vec<usize>>, f64) {
+        let corners: Vec<[f64; 3]> = face.iter().map(|corner| self.place(patch, nodes[*corner])).collect();
+        let middles_in = |edges: &cell::Edges| -> Option<Vec<usize>> {
+            let middle = |at: usize| {
+                let [a, b] = [face[at], face[(at + 1) % face.len()]];
+                let edge = edges.iter().position(|edge| *edge == [a, b] || *edge == [b, a])?;
+                Some(cell.n_corners() + edge)
+            };
+            (0..face.len()).map(middle).collect()
+        };
+        let with_fit = |middles: Vec<usize>| {
+            let places: Vec<[f64; 3]> = middles.iter().map(|node| self.place(patch, nodes[*node])).collect();
+            let fit = misfit(&corners, &places);
+            (middles, fit)
+        };
+        let known: Vec<(Vec<usize>, f64)> = cell.orders().iter().filter_map(middles_in).map(with_fit).collect();
+        let is_in_patch = |middles: &[usize]| middles.iter().all(|node| self.place_in(patch, nodes[*node]).is_some());
+        let Some((best, fit)) = known.iter().min_by(|a, b| a.1.total_cmp(&b.1)) else { return (None, f64::INFINITY) };
+        let is_known = *fit <= NEAR_MIDDLE;
+        let chosen =
+            if is_known { Some(best) } else { known.iter().map(|(middles, _)| middles).find(|own| is_in_patch(own)) };
+        (chosen.filter(|own| is_in_patch(own)).cloned(), *fit)
     }
 
     /// Where a node of the file is relative to the first node of a patch.

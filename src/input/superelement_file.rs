@@ -26,7 +26,8 @@ use super::{MatrixInput, MatrixRole};
 use crate::dense;
 use crate::dofs::{Dof, DofMap, Nodes};
 use crate::error::{Error, Result};
-use crate::job::{AssumesJob, Layout, ModelJob};
+use crate::job::{AssumesJob, Layout, ModelJob, unseen_hz};
+use crate::number::{counted, quantity};
 use crate::regular_file;
 
 /// What supel itself writes.
@@ -250,7 +251,12 @@ pub fn refuse_unsaid(job: &ModelJob) -> Result<()> {
     let unsaid = validity.assumptions.iter().find(|sentence| !said.sentences.contains(sentence)).cloned();
     let of_gravity = validity.gravity.filter(|gravity| said.gravity != Some(*gravity));
     let of_gravity = of_gravity.map(|[x, y, z]| format!("gravity acts along ({x}, {y}, {z}) alone"));
-    match unsaid.or(of_gravity) {
+    let unseen: Vec<f64> = unseen_hz(&superelement).into_iter().filter(|hz| !said.unseen_hz.contains(hz)).collect();
+    let of_modes = unseen.iter().copied().reduce(f64::min).map(|lowest| {
+        let n = counted(unseen.len(), "mode", "modes");
+        format!("{n} that nothing starts or sees are left out, the lowest at {} Hz (unseen_hz)", quantity(lowest, 7))
+    });
+    match unsaid.or(of_gravity).or(of_modes) {
         Some(sentence) => Err(Error::AssumedUnsaid { path, sentence }),
         None => Ok(()),
     }

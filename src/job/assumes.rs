@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use supel_runtime::Validity;
+use supel_runtime::{Superelement, Validity};
 
 use super::gravity::GravityJob;
 use super::interface_part::InterfacePart;
@@ -26,6 +26,10 @@ pub struct AssumesJob {
     /// Directions of interfaces that move, and are no dofs of the model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<InterfacePart>,
+    /// Frequencies in Hz of modes that the matrices lack because nothing starts or sees them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
+    pub unseen_hz: Vec<f64>,
 }
 
 impl AssumesJob {
@@ -34,6 +38,7 @@ impl AssumesJob {
         self.sentences.extend(other.sentences);
         self.at_rest.extend(other.at_rest);
         self.left_out.extend(other.left_out);
+        self.unseen_hz.extend(other.unseen_hz);
         self.gravity = match (self.gravity, other.gravity) {
             (Some(own), Some(other)) if allows(own, other) => Some(other),
             (Some(own), Some(other)) if allows(other, own) => Some(own),
@@ -41,6 +46,17 @@ impl AssumesJob {
             (own, other) => own.or(other),
         };
     }
+}
+
+/// Frequencies in Hz of the modes that a superelement lacks because nothing starts or sees them: those that its own reduction left out, and those
+/// that its model lacked before. Such a mode is an eigenvector of the component however that is held, joined or reduced again.
+pub fn unseen_hz(superelement: &Superelement) -> Vec<f64> {
+    let metadata = superelement.metadata();
+    let of_model = metadata.job["model"]["assumes"]["unseen_hz"].as_array().into_iter().flatten();
+    let frequencies = &superelement.tensors().frequencies;
+    let own =
+        metadata.unseen_modes().filter_map(|mode| frequencies.get(mode)).map(|omega| omega / std::f64::consts::TAU);
+    of_model.filter_map(serde_json::Value::as_f64).chain(own).collect()
 }
 
 /// Whether gravity that is assumed to act along one direction alone may act along another.
@@ -53,6 +69,9 @@ pub(super) fn validate(assumes: &AssumesJob, scene: Option<GravityJob>) -> Resul
         if parts.iter().any(|part| part.0.is_empty()) {
             return Err(Error::JobEmpty { key: format!("model.assumes.{key}"), expected: "directions of interfaces" });
         }
+    }
+    for (index, hz) in assumes.unseen_hz.iter().enumerate() {
+        ranges::positive(&format!("model.assumes.unseen_hz[{index}]"), *hz)?;
     }
     let Some(assumed) = assumes.gravity else { return Ok(()) };
     ranges::finite("model.assumes.gravity", &assumed)?;

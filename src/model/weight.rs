@@ -6,7 +6,7 @@ use faer::Mat;
 
 use super::{Bodies, Model, node_of_row};
 use crate::dense;
-use crate::dofs::Dof;
+use crate::dofs::{Direction, Dof};
 use crate::sparse::product;
 
 /// What M says of the six unit motions of all rows together, in scaled units.
@@ -43,6 +43,13 @@ pub enum Supports {
 }
 
 impl Model {
+    /// The model, of which a job says that supports hold these rotations. Where they let it move along every axis its coordinates show no support, and
+    /// rows may have been taken out of its mass all the same.
+    pub fn knowing_supports(self, held_rotations: &[Direction]) -> Self {
+        let supports = if held_rotations.is_empty() { self.supports } else { Supports::Perhaps };
+        Self { supports, ..self }
+    }
+
     /// The mass of the model, or nothing without a dof map. One product with M.
     pub fn weight(&self) -> Option<Weight> {
         let dofs = self.dofs.as_ref()?;

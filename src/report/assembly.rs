@@ -265,19 +265,8 @@ fn omits(omitted: &Omitted) -> String {
 
 /// The modes that a component leaves out because nothing starts or sees them; none where it leaves out none.
 fn unseen(component: &Component) -> Option<String> {
-    let superelement = &component.superelement;
-    let omegas: Vec<f64> = superelement
-        .metadata()
-        .unseen_modes()
-        .filter_map(|mode| superelement.tensors().frequencies.get(mode).copied())
-        .collect();
-    let lowest = omegas.iter().copied().reduce(f64::min)? / std::f64::consts::TAU;
-    Some(format!(
-        "{} leaves out {} that nothing starts or sees, the lowest at {} Hz: the full assembly has them in addition to those listed here",
-        component.name,
-        counted(omegas.len(), "mode", "modes"),
-        number::quantity(lowest, 7)
-    ))
+    let left_out = component.unseen_modes()?;
+    Some(format!("{left_out}: the full assembly has them in addition to those listed here"))
 }
 
 /// How far the lower bound is below the frequency, in per cent of it.

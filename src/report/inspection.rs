@@ -9,6 +9,7 @@ use super::page::{Page, Paint, Tone, verdict_word};
 use super::summary::body;
 use super::table::{self, Align};
 use super::words;
+use crate::job::unseen_hz;
 use crate::number;
 use crate::report::MassProperties;
 use crate::verification::check::Verdict;
@@ -119,6 +120,14 @@ fn modes(page: &mut Page, superelement: &Superelement) {
     }
     for dropped in &metadata.dropped {
         page.entry("left out", &format!("{}: {}", column(&dropped.column, &metadata.load_names), dropped.reason));
+    }
+    // What its own reduction left out stands above.
+    let all = unseen_hz(superelement);
+    let of_model = &all[..all.len() - metadata.unseen_modes().count()];
+    if let Some(lowest) = of_model.iter().copied().reduce(f64::min) {
+        let n = number::counted(of_model.len(), "mode", "modes");
+        let text = format!("{n} that nothing starts or sees, the lowest at {} Hz", number::quantity(lowest, 7));
+        page.entry("model lacks", &text);
     }
     let rows: Vec<Mode> = frequencies
         .iter()

@@ -58,8 +58,12 @@ fn found_zero_modes(partition: &Partition) -> Result<ZeroModes> {
     let orthonormal = without_elastic_rounding(partition, &found);
     let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal.as_ref());
     let magnitudes = energies_of_terms(orthonormal.as_ref(), terms.as_ref());
-    let largest_residual = residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max);
     let elastic: Vec<f64> = found.lowest.lambda[found.n_zero..].iter().copied().chain(found.lowest.next).collect();
+    let (mass_orthonormal, of_mass) = product_and_terms(&partition.mass, orthonormal.as_ref());
+    // A free particle strains nothing, and its terms are rounding themselves: its inertia in the first elastic mode stands next to them, which is
+    // less than the terms of what is joined to something.
+    let sizes = &terms + of_mass * faer::Scale(elastic.first().copied().unwrap_or(0.0));
+    let largest_residual = residuals(forces.as_ref(), sizes.as_ref()).into_iter().fold(0.0, f64::max);
     // A rounding E turns a zero mode towards an elastic one x by xᵀEq / λ, and xᵀEq is what it makes of the energies of the two.
     let level = found.lowest.errors[..found.n_zero].iter().map(|error| error.zero_level).fold(0.0, f64::max);
     let angle = elastic.first().map_or(0.0, |lambda| level / lambda);
@@ -69,7 +73,6 @@ fn found_zero_modes(partition: &Partition) -> Result<ZeroModes> {
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
         energy.noise = energy.noise.max((partition.precision.stiffness.share + f64::EPSILON) * magnitude);
     }
-    let mass_orthonormal = product(&partition.mass, orthonormal.as_ref());
     let rigid = algebraic(orthonormal, mass_orthonormal, energy);
     Ok(ZeroModes { rigid, elastic, bar_of_digits, n_factorisations: found.n_factorisations })
 }

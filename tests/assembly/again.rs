@@ -200,10 +200,14 @@ fn a_ball_joint_stays_one() {
     let ball = "--join left.middle.ux=right.middle.ux --join left.middle.uy=right.middle.uy \
                 --join left.middle.uz=right.middle.uz";
     let superelement = again(&place, ball);
+    let job = || String::from_utf8(place.bytes("whole.job.toml")).expect("text");
+    assert!(job().contains("mechanisms = \"accept\""), "{}", job());
     let component = Component::new("whole".to_owned(), superelement).expect("a component");
     let modes = all_modes(&Assembly::new(vec![component]).expect("one name"));
     // Six motions of the whole and three rotations of one part against the other.
     assert_eq!(modes.modes.iter().filter(|mode| mode.frequency_hz == 0.0).count(), 9, "{:?}", &modes.modes[..10]);
+    export(&place, JOINED).expect(ExitCode::Done);
+    assert!(!job().contains("mechanisms"), "{}", job());
 }
 
 /// Loads come along under the name of their component, whatever else does not is named.

@@ -2,6 +2,7 @@
 
 mod again;
 mod as_model;
+mod carried;
 mod command;
 mod little_stiffness;
 mod matrix_market;

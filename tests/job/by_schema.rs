@@ -28,7 +28,7 @@ fn job(interfaces: &Value, modes: &Value, recovered: &Value) -> Value {
             "drop_empty": true, "units": "mm", "stiffness_digits": 7, "mass_digits": 5, "held_rotations": ["rx", "rz"],
             "frames": "frames.csv", "constraints": "G.mtx", "constraints_to_ground": "accept", "mechanisms": "accept", "state": "preloaded", "internal_forces": "q.mtx",
             "expect": { "mass": 2.5, "cg": [0.25, 1.25, 2.25] },
-            "assumes": { "sentences": ["nothing moves"], "gravity": [0.25, 0.5, 1.5], "at_rest": ["hub.ux"], "left_out": ["hub.rx", "hub.ry"] },
+            "assumes": { "sentences": ["nothing moves"], "gravity": [0.25, 0.5, 1.5], "at_rest": ["hub.ux"], "left_out": ["hub.rx", "hub.ry"], "unseen_hz": [21.5, 22.5] },
         },
         "interface": interfaces,
         "fixed": [{ "name": "foot", "nodes": recovered, "dofs": ["uy", "ry"] }],

@@ -459,6 +459,22 @@ fn faces_between_cells_do_not_count() {
     assert_centroid(&xdmf(&mesh, &twice).faces(&mesh.patch()), 2, CENTROID, "cells and a part of them");
 }
 
+/// Bottom, top and one side have all corners of a brick and not all nodes in the middles of its edges: the other sides have nodes elsewhere, and
+/// no other order of the cell is made of those that are there.
+#[test]
+fn patches_with_all_corners_of_a_brick_need_not_have_its_edges() {
+    for order in [Order::BottomTopUpright, Order::BottomUprightTop] {
+        for n_nodes in [20, 27] {
+            let mesh = Mesh::of(Shape::Brick, n_nodes, order);
+            let patches = mesh.patch_where(|[x, _, z]| x <= 1.0 && (z == 0.0 || z == 1.0 || x == 0.0));
+            let kind = if n_nodes == 20 { "H20" } else { "H27" };
+            let found = med(&mesh, &[(kind, columns(&rows(&mesh.cells, 1), n_nodes))]).faces(&patches);
+            // Below and above 1 × 2 each, the side at x = 0 is 2 × 1.
+            assert_centroid(&found, 3, [1.0 / 3.0, 1.0, 0.5], kind);
+        }
+    }
+}
+
 /// A face that is there as a cell of a surface, too, is one face.
 #[test]
 fn surfaces_of_volumes_count_once() {

@@ -6,6 +6,7 @@ mod document;
 mod frames;
 mod healthy;
 mod model;
+mod no_stiffness;
 mod reproduced;
 mod tampered;
 mod tampering;

@@ -141,7 +141,7 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
     let mut pairs: Vec<[Mat<f64>; 2]> = Vec::new();
     let mut add = |weight: f64, pair: [Mat<f64>; 2]| pairs.push(pair.map(|a| a * faer::Scale(weight)));
     let [stiffness, mass] = [&projected.stiffness, &projected.mass].map(|form| |j: usize| form.matrix[(j, j)].max(0.0));
-    let softest = (0..p).map(|j| mass(j) / stiffness(j)).filter(|ratio| ratio.is_finite()).fold(0.0, f64::max);
+    let softest = (0..p).filter(|j| projected.is_stiff(*j)).map(|j| mass(j) / stiffness(j)).fold(0.0, f64::max);
     // A rotation without inertia has what rounding squares leave, and divided by that its rounding would be all that is seen.
     let inertia = |j: usize| mass(j).max(NO_MASS * softest * stiffness(j)).max(f64::MIN_POSITIVE).sqrt();
     let coupling = dense::product(projected.probes.transpose(), file.m.as_ref().subrows(0, file.n_b));

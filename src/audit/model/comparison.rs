@@ -7,9 +7,10 @@ use super::alignment::Combination;
 use super::bilinear::Bilinear;
 use super::columns::Named;
 use super::entries::{self, Kind, Order, compared, rows, statics};
-use super::projection::{Form, Projected, Rows};
+use super::projection::{Form, Projected, Rows, least_energy};
 use super::scaled::Scaled;
 use crate::audit::content::coordinate_name;
+use crate::dense;
 use crate::error::Result;
 use crate::verification::check::Check;
 
@@ -40,9 +41,12 @@ impl Comparison<'_> {
         }
         let (k, m) = (self.mixed(file.k.as_ref()), self.mixed(file.m.as_ref()));
         let of_stiffness = (Kind::Energy, projected.n_in_equilibrium());
-        let mut checks = vec![compared(k.as_ref(), &stiffness, of_stiffness, &name)];
+        let inertia = dense::diagonal(mass.matrix.as_ref());
+        let least: Vec<f64> = inertia.iter().map(|inertia| least_energy(*inertia, *first).sqrt()).collect();
+        let mut checks = vec![compared(k.as_ref(), (&stiffness, &least), of_stiffness, &name)];
         if file.has_mass {
-            checks.push(compared(m.as_ref(), &mass, (Kind::Inertia, 0), &name));
+            let none = vec![0.0; inertia.len()];
+            checks.push(compared(m.as_ref(), (&mass, &none), (Kind::Inertia, 0), &name));
         }
         if p > 0 {
             let order = if projected.n_in_equilibrium() == p { Order::Second } else { Order::First };
@@ -138,7 +142,7 @@ impl Comparison<'_> {
     /// Rows of the file with their interface columns mixed as the probes are.
     fn mixed_rows(&self, a: MatRef<'_, f64>) -> Mat<f64> {
         let (n_b, p) = (self.file.n_b, self.projected.n_probes());
-        let interface = crate::dense::product(a.subcols(0, n_b), self.projected.probes.as_ref());
+        let interface = dense::product(a.subcols(0, n_b), self.projected.probes.as_ref());
         Mat::from_fn(a.nrows(), p + self.n_modal(), |i, j| if j < p { interface[(i, j)] } else { a[(i, n_b + j - p)] })
     }
 
@@ -162,5 +166,5 @@ impl Comparison<'_> {
 /// The check that is farthest beyond its limit, or closest to it.
 fn worst(checks: impl Iterator<Item = Check>) -> Option<Check> {
     let share = |check: &Check| check.value / check.limits.value();
-    checks.reduce(|worst, check| if crate::dense::worse(share(&check), share(&worst)) { check } else { worst })
+    checks.reduce(|worst, check| if dense::worse(share(&check), share(&worst)) { check } else { worst })
 }

@@ -91,24 +91,25 @@ fn bound(form: &Form, (i, j): (usize, usize), order: Order) -> f64 {
 }
 
 /// What an entry of a coordinate is relative to. Of an interface that just holds the component nothing is left of K̂ but rounding
-/// of its terms, which then stand for it.
-fn sizes(form: &Form) -> Vec<f64> {
-    let size = |(i, terms): (usize, &f64)| {
+/// of its terms, which then stand for it; of a dof without stiffness not even that, and its `least` size stands for it.
+fn sizes(form: &Form, least: &[f64]) -> Vec<f64> {
+    let size = |((i, terms), least): ((usize, &f64), &f64)| {
         let norm = form.matrix[(i, i)].max(0.0).sqrt();
-        if norm * norm > BOTH * f64::EPSILON * terms * terms { norm } else { *terms }
+        let own = if norm * norm > BOTH * f64::EPSILON * terms * terms { norm } else { *terms };
+        own.max(*least)
     };
-    form.terms.iter().enumerate().map(size).collect()
+    form.terms.iter().enumerate().zip(least).map(size).collect()
 }
 
-/// A matrix of the file, its interface rows mixed as the probes are, against the form of the columns made again.
+/// A matrix of the file, its interface rows mixed as the probes are, against the form of the columns made again, which have a least size each.
 pub(super) fn compared(
     found: MatRef<'_, f64>,
-    expected: &Form,
+    (expected, least): (&Form, &[f64]),
     (kind, n_stationary): (Kind, usize),
     name: &dyn Fn(usize) -> String,
 ) -> Check {
     let mut worst = Worst::default();
-    let sizes = sizes(expected);
+    let sizes = sizes(expected, least);
     for j in 0..found.ncols() {
         for i in 0..=j {
             let is_stationary = kind == Kind::Energy && i < n_stationary && j < n_stationary;

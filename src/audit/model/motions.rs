@@ -122,6 +122,14 @@ impl KnownMotions {
         }
     }
 
+    /// Of an interface that leaves some of them free. Where coordinates tell fewer of them the reduction takes all from the matrices, which know
+    /// neither mass nor directions of gravity.
+    pub(super) fn seen_in_part(self, n_of_coordinates: usize) -> Self {
+        let seen = Self { sight: Sight::Part, ..self };
+        let are_known = n_of_coordinates >= seen.n_zero;
+        if are_known { seen } else { Self { meaning: Meaning::Zero, is_of_a_body: false, ..seen } }
+    }
+
     /// Whether the file has to say that its rigid-body modes are the six unit motions.
     pub(super) fn is_geometric(&self) -> bool {
         self.meaning == Meaning::Unit

@@ -69,17 +69,19 @@ pub(super) struct Projected {
     pub(super) motions: Option<Mat<f64>>,
     /// The largest error of a static answer relative to itself.
     pub(super) residual: f64,
+    /// λ₁, the first elastic eigenvalue.
+    pub(super) first: f64,
     /// How far the named columns depend on each other.
     pub(super) dependence: Dependence,
 }
 
 impl Projected {
-    /// Projects the matrices; `unit` are the unit motions, translations first, where the directions are known, and `n_zero` is how many
-    /// motions are free.
+    /// Projects the matrices; `unit` are the unit motions, translations first, where the directions are known, `n_zero` is how many
+    /// motions are free, and `first` the first elastic eigenvalue.
     pub(super) fn new(
         partition: &Partition,
         columns: Columns,
-        (unit, n_zero): (Option<MatRef<'_, f64>>, usize),
+        (unit, n_zero, first): (Option<MatRef<'_, f64>>, usize, f64),
         massive: Option<Massive>,
     ) -> Self {
         let (shapes, n_probes) = (columns.shapes.as_ref(), columns.n_probes());
@@ -97,7 +99,7 @@ impl Projected {
         let gravity = gravity.map(|of| loads((of.0.as_ref(), of.1), shapes, (&mass, n_probes)));
         let named_loads = (0..partition.loads.count()).map(|load| {
             let norm = columns.load_norms.as_ref().map(|norms| norms[load]);
-            named_load(partition, (load, norm), shapes, [&stiffness, &mass])
+            named_load(partition, (load, norm), shapes, ([&stiffness, &mass], first))
         });
         let named_loads: Vec<Rows> = named_loads.collect();
         let diagonal = crate::sparse::diagonal(&partition.mass);
@@ -132,8 +134,16 @@ impl Projected {
             recovery,
             motions,
             residual,
+            first,
             dependence,
         }
+    }
+
+    /// Whether a column has an energy that is more than rounding next to that of its inertia in the first elastic mode: a free mass at the
+    /// interface has none.
+    pub(super) fn is_stiff(&self, column: usize) -> bool {
+        let [energy, inertia] = [&self.stiffness, &self.mass].map(|form| form.matrix[(column, column)]);
+        energy > least_energy(inertia, self.first)
     }
 
     /// The place of a named column.
@@ -227,6 +237,12 @@ impl Massive {
     }
 }
 
+/// ελ₁ wᵀMw: what rounding leaves of the energy of a column that has none, next to that of its inertia in the first elastic mode. An energy
+/// below is compared with it, and not with itself.
+pub(super) fn least_energy(inertia: f64, first: f64) -> f64 {
+    f64::EPSILON * first * inertia.max(0.0)
+}
+
 /// wᵀAw, panel by panel.
 fn form(matrix: &SparseMatrix, shapes: MatRef<'_, f64>, errors: &[f64]) -> Form {
     let q = shapes.ncols();
@@ -263,12 +279,13 @@ fn loads((loads, largest): (MatRef<'_, f64>, f64), shapes: MatRef<'_, f64>, (mas
 }
 
 /// fᵀTW of one load f. An error e of a column has the energy eᵀKe, so that |fᵀe| ≤ √(f_Iᵀ K_II⁻¹ f_I) √(eᵀKe); a component of which
-/// no interior answers has its inertia instead, with the diagonal of M.
+/// no interior answers has its inertia instead, with the diagonal of M. On a column without stiffness f does work by rounding alone, which is
+/// compared with that of a motion of its least energy.
 fn named_load(
     partition: &Partition,
     (load, norm): (usize, Option<f64>),
     shapes: MatRef<'_, f64>,
-    [stiffness, mass]: [&Form; 2],
+    ([stiffness, mass], first): ([&Form; 2], f64),
 ) -> Rows {
     let vector = partition.loads.vectors.as_ref().subcols(load, 1);
     let terms = dense::gram(dense::absolute(vector).as_ref(), dense::absolute(shapes).as_ref());
@@ -277,14 +294,15 @@ fn named_load(
         let share = |(f, m): (&f64, f64)| if m > 0.0 { f * f / m } else { 0.0 };
         dense::column(vector, 0).iter().zip(diagonal).map(share).sum::<f64>().sqrt()
     };
-    let (norm, errors) = match norm {
-        Some(norm) => (norm, &stiffness.errors),
-        None => (by_inertia(), &mass.errors),
+    let least = |norm: f64, j: usize| norm * least_energy(mass.matrix[(j, j)], first).sqrt();
+    let (norm, errors, of_energy) = match norm {
+        Some(norm) => (norm, &stiffness.errors, norm),
+        None => (by_inertia(), &mass.errors, 0.0),
     };
     Rows {
         rows: dense::gram(vector, shapes),
         errors: errors.iter().enumerate().map(|(j, error)| norm * error + f64::EPSILON * terms[(0, j)]).collect(),
-        sizes: (0..shapes.ncols()).map(|j| terms[(0, j)]).collect(),
+        sizes: (0..shapes.ncols()).map(|j| terms[(0, j)].max(least(of_energy, j))).collect(),
     }
 }
 

@@ -64,6 +64,17 @@ impl Lengths {
         }
     }
 
+    /// Of combinations of these motions, however these are mixed among themselves: by Schwarz no more than ‖s‖ ‖e‖, where mixtures have the errors
+    /// of one another.
+    pub(super) fn mixed(&self, shares: MatRef<'_, f64>) -> Self {
+        let of = |sizes: &Vec<f64>| {
+            let all = dense::norm(sizes);
+            (0..shares.ncols()).map(|j| all * dense::norm(dense::column(shares, j))).collect()
+        };
+        let [energy, inertia, displacement] = self.all().map(of);
+        Self { energy, inertia, displacement }
+    }
+
     /// Of combinations of these motions: what they add up to at most.
     pub(super) fn summed(&self, shares: MatRef<'_, f64>) -> Self {
         let [energy, inertia, displacement] = self.all().map(|sizes| dense::summed_sizes(sizes, shares));

@@ -1,0 +1,135 @@
+//! What a first reduction left out or was told, and the reduction of its superelement has to know.
+
+use supel::cli::ExitCode;
+use supel_models::transform::rounded;
+use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_testing::cases::hinged;
+use supel_testing::place::{Place, assert_close, frequencies_hz, supel};
+
+use super::export;
+
+/// A block with one end at rest, which interface and output see in its plane of symmetry alone: torsion is left out.
+const BLOCK: &str = "fixed = [{ name = \"wall\", nodes = [1, 6, 11, 16, 21, 26, 31, 36, 41] }]\n\
+     interface = [{ name = \"tip\", nodes = [10, 25, 40], dofs = [\"ux\", \"uz\"] }]\n\
+     reduction = { method = \"craig-bampton\", modes = { count = 10 } }\n\
+     scene = { outputs = { nodes = [23] }, boundaries = [\"free\"], band_hz = [0, 2000] }\n";
+
+/// Reduces the files of a place to x.supel by a job with these keys of the model and these tables.
+fn reduced(place: &Place, (keys, tables): (&str, &str)) {
+    let text = format!(
+        "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\"{keys} }}\n{tables}\
+         write = {{ superelement = \"x.supel\" }}\n"
+    );
+    place.write("job.toml", text.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+}
+
+fn again(place: &Place, [from, to]: [&str; 2]) {
+    supel(&["reduce", &place.text(from), "--output", &place.text(to)]).expect(ExitCode::Done);
+}
+
+fn job_text(place: &Place, name: &str) -> String {
+    String::from_utf8(place.bytes(name)).expect("text")
+}
+
+/// What `supel modes` says of modes that nothing starts or sees, without the name of the component.
+fn note(place: &Place, name: &str) -> String {
+    let told = supel(&["modes", &place.text(name), "--json"]).expect(ExitCode::Done).out;
+    let told: serde_json::Value = serde_json::from_str(&told).expect("JSON");
+    let notes = told["notes"].as_array().expect("notes").iter().filter_map(|note| note.as_str());
+    let own =
+        notes.filter_map(|note| note.split_once(" leaves out ")).find(|(_, rest)| rest.contains("nothing starts"));
+    own.map(|(_, rest)| rest.to_owned()).unwrap_or_default()
+}
+
+/// A mode that nothing sees is one of the component whatever is made of its superelement: no later file forgets it.
+#[test]
+fn modes_left_out_as_unseen_are_told_by_every_further_reduction() {
+    let place = Place::with_brick();
+    reduced(&place, ("", BLOCK));
+    let n = place.superelement("x.supel").metadata().unseen_modes().count();
+    let of_first = note(&place, "x.supel");
+    assert!(n > 0 && of_first.starts_with(&format!("{n} mode")), "{of_first}");
+    again(&place, ["x.supel", "y.supel"]);
+    again(&place, ["y.supel", "z.supel"]);
+    for name in ["y.supel", "z.supel"] {
+        assert_eq!(place.superelement(name).metadata().dropped, [], "{name}");
+        assert_eq!(note(&place, name), of_first, "{name}");
+        let inspected = supel(&["inspect", &place.text(name)]).expect(ExitCode::Done).out;
+        assert!(inspected.contains("model lacks"), "{inspected}");
+    }
+    supel(&["verify", &place.text("y.supel"), "--job", &place.text("x.supel")]).expect(ExitCode::Done);
+    // The job that is exported says it, and one that does not is refused.
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    let text = job_text(&place, "x.job.toml");
+    let (before, rest) = text.split_once(", unseen_hz = [").expect("frequencies");
+    let (frequencies, after) = rest.split_once(']').expect("a list");
+    assert_eq!(frequencies.split(',').count(), n, "{text}");
+    let files = ["x.stiffness.mtx", "x.mass.mtx", "x.dofs.csv", "x.nodes.csv"];
+    let silent = files.iter().fold(format!("{before}{after}"), |text, file| text.replace(file, "x.supel"));
+    place.write("silent.toml", silent.as_bytes());
+    let ended = supel(&["reduce", &place.text("silent.toml")]);
+    assert!(ended.err.contains("E-ASSUMED") && ended.err.contains("unseen_hz"), "{}", ended.err);
+    // So does that of an assembly, of each of its components.
+    place.write("b.supel", &place.bytes("x.supel"));
+    let [x, b, whole] = ["x.supel", "b.supel", "whole"].map(|name| place.text(name));
+    let flags = ["--join", "x.tip=b.tip", "--keep", "x.tip", "--to", "matrix-market", "--output", &whole];
+    let exported = supel(&[&["export", &x, &b][..], &flags].concat()).expect(ExitCode::Done).out;
+    assert_eq!(exported.matches("that nothing starts or sees").count(), 2, "{exported}");
+    let text = job_text(&place, "whole.job.toml");
+    let (_, rest) = text.split_once("unseen_hz = [").expect("frequencies");
+    assert_eq!(rest.split(']').next().expect("a list").split(',').count(), 2 * n, "{text}");
+}
+
+/// Of few digits a hinge is meant where the job says so, and the second job says it too.
+#[test]
+fn mechanisms_that_are_meant_are_meant_again() {
+    let place = Place::with(&rounded(&hinged(), 7));
+    let tables = "interface = [{ name = \"here\", nodes = [1, 2, 4, 7] }, { name = \"there\", nodes = [15, 18, 21] }]\n\
+         reduction = { method = \"herting\", modes = { count = 3 } }\n";
+    reduced(&place, (", mechanisms = \"accept\"", tables));
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    assert!(job_text(&place, "x.job.toml").contains("mechanisms = \"accept\""));
+    supel(&["reduce", &place.text("x.job.toml")]).expect(ExitCode::Done);
+    again(&place, ["x.supel", "y.supel"]);
+    let [first, second] = ["x.supel", "y.supel"].map(|name| place.superelement(name));
+    assert_eq!([first.n_rigid(), second.n_rigid()], [7, 7]);
+    assert_eq!(first.metadata().validity.assumptions, second.metadata().validity.assumptions);
+}
+
+/// A frame in space, of nine nodes.
+fn bent() -> Model {
+    let at = |i: usize| {
+        let t = i as f64 / 8.0;
+        [0.8 * t, 0.3 * (3.0 * t).sin(), 0.2 * t * t]
+    };
+    let nodes: Vec<[f64; 3]> = (0..9).map(at).collect();
+    let edges: Vec<[usize; 2]> = (1..9).map(|i| [i - 1, i]).chain([[0, 4], [3, 7]]).collect();
+    frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent)
+}
+
+/// Rotations that supports hold alone are no mistake of the coordinates of the second model, wherever the first job holds them.
+#[test]
+fn rotations_that_are_held_alone_are_known_again() {
+    let interface = "interface = [{ name = \"i\", nodes = [1] }, { name = \"j\", nodes = [9] }]\n";
+    for method in ["herting", "craig-bampton"] {
+        let method = format!("reduction = {{ method = \"{method}\", modes = {{ count = 3 }} }}\n");
+        for (held, n_rigid) in [
+            ("scene = { grounded = [\"i.rz\"] }\n", 5),
+            ("scene = { grounded = [\"i.rx\", \"i.ry\", \"i.rz\"] }\n", 3),
+            ("fixed = [{ nodes = [5], dofs = [\"rz\"] }]\n", 5),
+            ("fixed = [{ nodes = [5], dofs = [\"uz\", \"rz\"] }]\n", 4),
+        ] {
+            let place = Place::with(&bent());
+            reduced(&place, ("", &format!("{interface}{method}{held}")));
+            again(&place, ["x.supel", "y.supel"]);
+            supel(&["verify", &place.text("y.supel"), "--job", &place.text("x.supel")]).expect(ExitCode::Done);
+            let [first, second] = ["x.supel", "y.supel"].map(|name| place.superelement(name));
+            assert_eq!([first.n_rigid(), second.n_rigid()], [n_rigid; 2], "{held}");
+            assert_close(&frequencies_hz(&second), &frequencies_hz(&first), 1e-8);
+            export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+            let says = job_text(&place, "x.job.toml").contains("held_rotations");
+            assert_eq!(says, !held.contains("uz"), "{held}");
+        }
+    }
+}
