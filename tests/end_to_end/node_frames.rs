@@ -508,6 +508,8 @@ fn systems_of_nastran_by_points_in_line_are_refused_by_line() {
         "CORD2R,7,,.1,-.2,.3,.2,.1,.9\n,.3,.4,1.5",
         "CORD2C,7,,.1,-.2,.3,.2,.1,.9\n,.3,.4,1.5",
         "CORD2S,7,,0.,0.,0.,.333333,.666667,1.\n,.666667,1.333333,2.",
+        // Six digits: in line but for the last of them.
+        "CORD2R,7,,0.,0.,0.,.00333333,.00666667,.01\n,.00666667,.0133333,.02",
         "CORD2R,7,8,1.,20.,.1,1.,20.,.3\n,1.,20.,.7\nCORD2C,8,,.1,.2,.3,.2,.7,.9\n,1.3,.4,1.5",
         "CORD1R,7,91,92,93\nGRID,91,,.1,-.2,.3\nGRID,92,,.2,.1,.9\nGRID,93,,.3,.4,1.5",
     ] {
@@ -521,7 +523,7 @@ fn systems_of_nastran_by_points_in_line_are_refused_by_line() {
     // One unit of the last digit apart, at a right angle: meant so. The rows are along other axes then.
     let ended = place.reduce(&flags("CORD2R,7,,9.99901,0.,0.,9.99901,0.,.00001\n,9.99902,0.,0."), reduction);
     let ended = ended.expect(ExitCode::Done);
-    assert!(ended.out.contains("1 node has rows along axes of its own"), "{}", ended.out);
+    assert!(ended.out.contains("1 node has rows along axes of their own"), "{}", ended.out);
 }
 
 /// Abaqus writes its labelled rows along the axes of `*TRANSFORM`.

@@ -150,10 +150,13 @@ impl Scopes {
         }
         claim.add(COPIED * (scope.nodes.labels.len() + scope.elements.nodes.len()) as u64)?;
         scope.instance = Some(name);
-        let mut motion = Vec::new();
+        let (mut motion, mut place) = (Vec::new(), lines.place());
         while let Some(line) = data_line(lines)? {
             match numbers(line) {
-                Some(numbers) if motion.len() < 2 => motion.push(numbers),
+                Some(numbers) if motion.len() < 2 => {
+                    motion.push(numbers);
+                    place = lines.place();
+                }
                 _ => return Err(wrong_line(lines, "a translation, and below it two points and an angle")),
             }
         }
@@ -165,11 +168,13 @@ impl Scopes {
             Some(numbers @ &[a, b, c, d, e, f, angle, ..]) => {
                 if !Off::of_text(&numbers[..6]).tells([d - a, e - b, f - c]) {
                     let found = format!("an axis from {:?} to {:?}, which are one point", [a, b, c], [d, e, f]);
-                    return Err(lines.error(found, "two points of an axis and an angle"));
+                    return Err(lines.error_at(place, found, "two points of an axis and an angle"));
                 }
                 Some(([a, b, c], [d, e, f], angle))
             }
-            Some(_) => return Err(lines.error("another number of fields", "two points of an axis and an angle")),
+            Some(_) => {
+                return Err(lines.error_at(place, "another number of fields", "two points of an axis and an angle"));
+            }
         };
         for point in &mut scope.nodes.coordinates {
             *point = std::array::from_fn(|axis| point[axis] + translation[axis]);
