@@ -398,21 +398,13 @@ fn rubin_where_the_interface_leaves_a_translation_alone_agrees() {
 
 /// Two nodes at one place and what joins them, without stiffness about z.
 fn joint_about_z() -> Model {
-    let mut model = Model {
-        n: 12,
-        nodes: vec![[0.0; 3]; 2],
-        labels: vec![1, 2],
-        dofs: (0..12).map(|row| (1 + row / 6, (row % 6) as u8)).collect(),
-        ..Model::default()
-    };
-    for (row, stiffness) in (0u32..).zip([1e6, 1e6, 3e6, 1e3, 1e3, 0.0]) {
-        let other = row + 6;
-        let entries = [(row, row, 1.0), (row, other, -1.0), (other, row, -1.0), (other, other, 1.0)];
-        model.stiffness.extend(entries.map(|(i, j, sign)| (i, j, sign * stiffness)));
+    let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
+    for (row, value) in (0u32..).zip([1e6, 1e6, 3e6, 1e3, 1e3, 0.0]) {
+        stiffness.extend([(row, row, value), (row, row + 6, -value), (row + 6, row + 6, value)]);
     }
     let masses = [2.0, 2.0, 2.0, 0.01, 0.01, 0.01, 5.0, 5.0, 5.0, 0.02, 0.02, 0.03];
-    model.mass.extend((0u32..).zip(masses).map(|(row, mass)| (row, row, mass)));
-    model
+    mass.extend((0u32..).zip(masses).map(|(row, mass)| (row, row, mass)));
+    Model::node_major(vec![[0.0; 3]; 2], &[0, 1, 2, 3, 4, 5], stiffness, mass)
 }
 
 /// The value and the verdict of a check.
