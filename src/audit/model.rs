@@ -264,7 +264,7 @@ impl<'a> Reference<'a> {
                 let is_modal = file.n_b == 0 && self.motions.n_zero > 0;
                 let relief = (!self.motions.has_unit() && file.n_b > 0).then(|| self.motions.combination(file).0);
                 let mixing = file.mixing.as_ref().filter(|_| !is_modal).map(Mat::as_ref);
-                let freedom = Freedom { kept: &kept, groups: &self.asked.groups, relief, mixing };
+                let freedom = Freedom { kept: &kept, groups: &self.asked.groups, relief, mixing, first: self.first };
                 combination(file, projected, &freedom).unwrap_or_else(|| {
                     audit.notes.push(
                         "modes of one cluster may turn without the interface seeing it: of its matrices only the interface was \

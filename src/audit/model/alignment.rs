@@ -34,6 +34,8 @@ pub(super) struct Freedom<'a> {
     pub(super) relief: Option<Mat<f64>>,
     /// C; none where the stored columns are the named ones, or orthonormal ones of the same span.
     pub(super) mixing: Option<MatRef<'a, f64>>,
+    /// The first elastic eigenvalue.
+    pub(super) first: f64,
 }
 
 /// B, and what rounding of the mixing may make of it.
@@ -48,7 +50,7 @@ pub(super) struct Combination {
 /// B; none where the modes of a group may turn without being seen, and the matrices with them.
 pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedom<'_>) -> Option<Combination> {
     let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), freedom.kept.len());
-    let seen = seen(file, projected, freedom.mixing);
+    let seen = seen(file, projected, (freedom.mixing, freedom.first));
     let inverse = freedom.mixing.map(dense::inverse);
     let mixing = freedom.mixing.zip(inverse.as_ref().map(Mat::as_ref));
     let noise = noise(projected, freedom.kept, (seen[1].as_ref(), mixing));
@@ -134,14 +136,17 @@ fn groups(named: &[Named], of_modes: &[Range<usize>]) -> Vec<Vec<usize>> {
 
 /// What interface, gravity, rigid-body motion, recovered rows and further matrices see of the columns made again, and of the named ones of the file;
 /// f × n_N and f × n_η.
-fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -> [Mat<f64>; 2] {
+fn seen(file: &Scaled, projected: &Projected, (mixing, first): (Option<MatRef<'_, f64>>, f64)) -> [Mat<f64>; 2] {
     let (p, n_named, n_eta) = (projected.n_probes(), projected.named.len(), file.n_modal());
     let of_file = |a: &Mat<f64>| a.as_ref().subcols(file.n_b, n_eta).to_owned();
     let of_mine = |a: &Mat<f64>| a.as_ref().subcols(p, n_named).to_owned();
     let mut pairs: Vec<[Mat<f64>; 2]> = Vec::new();
     let mut add = |weight: f64, pair: [Mat<f64>; 2]| pairs.push(pair.map(|a| a * faer::Scale(weight)));
     let [stiffness, mass] = [&projected.stiffness, &projected.mass].map(|form| |j: usize| form.matrix[(j, j)].max(0.0));
-    let softest = (0..p).map(|j| mass(j) / stiffness(j)).filter(|ratio| ratio.is_finite()).fold(0.0, f64::max);
+    // What is below a rounding of its inertia in the first elastic mode is no stiffness.
+    let has_stiffness = |j: &usize| stiffness(*j) > f64::EPSILON * first * mass(*j);
+    let ratios = (0..p).filter(has_stiffness).map(|j| mass(j) / stiffness(j));
+    let softest = ratios.filter(|ratio| ratio.is_finite()).fold(0.0, f64::max);
     // A rotation without inertia has what rounding squares leave, and divided by that its rounding would be all that is seen.
     let inertia = |j: usize| mass(j).max(NO_MASS * softest * stiffness(j)).max(f64::MIN_POSITIVE).sqrt();
     let coupling = dense::product(projected.probes.transpose(), file.m.as_ref().subrows(0, file.n_b));

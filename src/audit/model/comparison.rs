@@ -40,9 +40,11 @@ impl Comparison<'_> {
         }
         let (k, m) = (self.mixed(file.k.as_ref()), self.mixed(file.m.as_ref()));
         let of_stiffness = (Kind::Energy, projected.n_in_equilibrium());
-        let mut checks = vec![compared(k.as_ref(), &stiffness, of_stiffness, &name)];
+        let of_first = if file.has_mass { *first } else { 0.0 };
+        let inertia: Vec<f64> = (0..k.nrows()).map(|j| of_first * mass.matrix[(j, j)].max(0.0)).collect();
+        let mut checks = vec![compared(k.as_ref(), (&stiffness, &inertia), of_stiffness, &name)];
         if file.has_mass {
-            checks.push(compared(m.as_ref(), &mass, (Kind::Inertia, 0), &name));
+            checks.push(compared(m.as_ref(), (&mass, &vec![0.0; k.nrows()]), (Kind::Inertia, 0), &name));
         }
         if p > 0 {
             let order = if projected.n_in_equilibrium() == p { Order::Second } else { Order::First };

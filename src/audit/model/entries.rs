@@ -91,24 +91,27 @@ fn bound(form: &Form, (i, j): (usize, usize), order: Order) -> f64 {
 }
 
 /// What an entry of a coordinate is relative to. Of an interface that just holds the component nothing is left of K̂ but rounding
-/// of its terms, which then stand for it.
-fn sizes(form: &Form) -> Vec<f64> {
+/// of its terms, which then stand for it. Where neither is more than a rounding of `inertia`, a coordinate of its own, that stands for it: a row
+/// without stiffness has rounding of rounding.
+fn sizes(form: &Form, inertia: &[f64]) -> Vec<f64> {
     let size = |(i, terms): (usize, &f64)| {
         let norm = form.matrix[(i, i)].max(0.0).sqrt();
-        if norm * norm > BOTH * f64::EPSILON * terms * terms { norm } else { *terms }
+        let own = if norm * norm > BOTH * f64::EPSILON * terms * terms { norm } else { *terms };
+        if own * own > f64::EPSILON * inertia[i] { own } else { inertia[i].sqrt() }
     };
     form.terms.iter().enumerate().map(size).collect()
 }
 
-/// A matrix of the file, its interface rows mixed as the probes are, against the form of the columns made again.
+/// A matrix of the file, its interface rows mixed as the probes are, against the form of the columns made again; `inertia` is what a coordinate
+/// has of it in the first elastic mode, as an energy.
 pub(super) fn compared(
     found: MatRef<'_, f64>,
-    expected: &Form,
+    (expected, inertia): (&Form, &[f64]),
     (kind, n_stationary): (Kind, usize),
     name: &dyn Fn(usize) -> String,
 ) -> Check {
     let mut worst = Worst::default();
-    let sizes = sizes(expected);
+    let sizes = sizes(expected, inertia);
     for j in 0..found.ncols() {
         for i in 0..=j {
             let is_stationary = kind == Kind::Energy && i < n_stationary && j < n_stationary;
