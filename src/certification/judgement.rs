@@ -16,6 +16,7 @@ use super::independence::Standing;
 use super::measured::Measured;
 use super::pair::{JudgedPair, MissingMode, PairKind};
 use crate::dense;
+use crate::eigen::frequency_bar;
 use crate::modes::BoundaryProblem;
 use crate::sparse::product;
 
@@ -211,7 +212,7 @@ impl Context<'_> {
         let stated = claims.lambda.as_ref().map(|stated| stated[claim]);
         let shape_hz = self.hertz(lambda);
         let of_cluster = found.cluster.map(|cluster| nearest(truth.lambda, truth.clusters[cluster].clone(), lambda));
-        let own_bar = 0.5 * (residual_bar + measured.errors[claim].data_bar) * shape_hz.abs();
+        let own_bar = frequency_bar(residual_bar + measured.errors[claim].data_bar, shape_hz);
         let bar_of = |mode: usize| truth.completed.modes.errors[mode].bar_of(self.hertz(truth.lambda[mode]));
         // Of a shape that is an eigenvector its own quotient is known best.
         let (mode, mode_bar) = match found.kind {

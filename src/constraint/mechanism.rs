@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::factor::{Analysis, few_digits, whole_count};
 use crate::job::Mechanisms;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, largest_residual, lost_interface, refuse_uncounted, zero_energy};
+use crate::rigid::{RigidBodyModes, largest_residual, lost_interface, refuse_uncounted, settled, zero_energy};
 use crate::sparse::absolute_energy;
 use crate::sparse::{product, product_and_terms};
 
@@ -124,7 +124,8 @@ pub fn with_mechanisms(
         }
     }
     found.share_of_next = counted_share(partition, constraint, (&rigid, &found))?;
-    let free = dense::columns(motions.as_ref(), &free);
+    // Where the rows that move have hardly any stiffness, a rounding of those at rest would be all the force there is.
+    let free = settled(partition, dense::columns(motions.as_ref(), &free));
     let n_grey = found.grey.len() + found.uncertain.len();
     let rigid = RigidBodyModes { n_grey, ..joined(partition, rigid, free.as_ref()) };
     Ok((rigid, found))

@@ -33,10 +33,20 @@ pub struct ModeError {
 }
 
 impl ModeError {
-    /// The error bar of a frequency, in its unit: half of what it is of λ.
+    /// The error bar of a frequency, in its unit.
     pub fn bar_of(&self, frequency: f64) -> f64 {
-        0.5 * self.relative_bar * frequency.abs()
+        frequency_bar(self.relative_bar, frequency)
     }
+}
+
+/// The error bar of a frequency, in its unit, by the relative bar of its λ: half of that, and where the bar is as large as λ and larger, as for
+/// rigid-body motion, no more than the frequency itself below and ω (√(1 + bar) − 1) above.
+pub(crate) fn frequency_bar(bar_of_lambda: f64, frequency: f64) -> f64 {
+    let share = match 0.5 * bar_of_lambda {
+        half if half > 1.0 => half.min(((1.0 + bar_of_lambda).sqrt() - 1.0).max(1.0)),
+        half => half,
+    };
+    share * frequency.abs()
 }
 
 /// Relative error bar of a frequency that is worth a look: what a modal test resolves, the limit of M-09.
@@ -220,4 +230,24 @@ pub fn mass_orthogonality<'a>(mass: impl Into<Leading<'a>>, shapes: MatRef<'_, f
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::frequency_bar;
+
+    /// A bar of λ holds λ (1 ± bar), and that of the frequency the roots of both, zero for what is below it.
+    #[test]
+    fn bars_of_frequencies_hold_the_roots_of_those_of_eigenvalues() {
+        for bar in [1e-12, 1e-3, 2.0, 3.0, 8.0, 1e6, 1e18] {
+            let (above, found) = (2.0 * f64::sqrt(1.0 + bar) - 2.0, frequency_bar(bar, -2.0));
+            let below = if bar < 1.0 { 2.0 - 2.0 * f64::sqrt(1.0 - bar) } else { 2.0 };
+            // Half a bar is the root to first order: the second is an eighth of its square. The roots themselves are rounded.
+            let least = above.max(below) * (1.0 - bar.min(1e-3)) - 8.0 * f64::EPSILON;
+            assert!(found >= least && found <= bar, "{bar}: {found} {above} {below}");
+            assert!(bar < 2.0 || found == above.max(2.0), "{bar}: {found}");
+        }
+        assert_eq!((frequency_bar(f64::INFINITY, 1.0), frequency_bar(0.0, 1.0)), (f64::INFINITY, 0.0));
+        assert!(frequency_bar(f64::NAN, 1.0).is_nan());
+    }
 }

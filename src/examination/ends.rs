@@ -1,5 +1,6 @@
 //! Flat faces at the ends of a component: interfaces of a mesh without groups.
 
+use super::interfaces::rank;
 use crate::job::Region;
 use crate::partition::Partition;
 
@@ -40,7 +41,13 @@ pub(super) fn end_faces(partition: &Partition, held: &[[f64; 3]]) -> Vec<EndFace
         let is_at = |position: &[f64; 3], at: f64| (position[*axis] - at).abs() <= FLAT * longest;
         let is_held = |at: f64| held.iter().any(|position| is_at(position, at));
         let n_nodes = |at: f64| positions.iter().filter(|position| is_at(position, at)).count();
-        let is_patch = |at: f64| n_nodes(at) >= LEAST_NODES && 2 * n_nodes(at) < positions.len();
+        let is_dof_at = |dof: usize, at: f64| partition.dofs[dof].site.is_some_and(|site| is_at(&site.position, at));
+        // Nodes in line, or with too few directions, carry no patch.
+        let carries = |at: f64| {
+            let dofs: Vec<usize> = (0..partition.n_dofs()).filter(|dof| is_dof_at(*dof, at)).collect();
+            rank(partition, &dofs) == 6
+        };
+        let is_patch = |at: f64| n_nodes(at) >= LEAST_NODES && 2 * n_nodes(at) < positions.len() && carries(at);
         let faces = [("minus", ends[0]), ("plus", ends[1])];
         let are_flat = faces.iter().all(|(_, at)| is_held(*at) || is_patch(*at));
         let free = faces.into_iter().filter(|(_, at)| !is_held(*at));

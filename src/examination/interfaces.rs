@@ -69,7 +69,8 @@ pub(super) fn candidates(partition: &Partition, nodes: &Nodes, held: &[[f64; 3]]
     let of_group = |(name, members): (&String, &Vec<usize>)| {
         let n_held = members.iter().filter(|member| held.contains(&bits(nodes.coordinates[**member]))).count();
         if n_held > 0 {
-            return of_held(name.clone(), members.len(), n_held);
+            let n_dofs = members.iter().filter_map(|member| of_label.get(&nodes.labels[*member])).map(Vec::len).sum();
+            return of_held(name.clone(), [members.len(), n_held], n_dofs);
         }
         let mut labels: Vec<i64> = members.iter().map(|member| nodes.labels[*member]).collect();
         labels.retain(|label| of_label.contains_key(label));
@@ -80,17 +81,18 @@ pub(super) fn candidates(partition: &Partition, nodes: &Nodes, held: &[[f64; 3]]
     nodes.groups.iter().map(of_group).collect()
 }
 
-/// A group that no interface can be, as nodes of it are held.
-fn of_held(group: String, n_nodes: usize, n_held: usize) -> Candidate {
+/// A group that no interface can be, as nodes of it are held, and the dofs that are left to it.
+fn of_held(group: String, [n_nodes, n_held]: [usize; 2], n_dofs: usize) -> Candidate {
     let remark = match n_nodes - n_held {
-        0 => "it is held".to_owned(),
+        0 if n_dofs == 0 => "it is held".to_owned(),
+        0 => "dofs of it are held".to_owned(),
         _ => format!(
             "{} held: list the others, if they are to be an interface",
             counted(n_held, "node of it is", "nodes of it are")
         ),
     };
     let (couplings, labels) = (Vec::new(), Vec::new());
-    Candidate { group, n_nodes, n_dofs: 0, couplings, remark: Some(remark), surface: None, labels }
+    Candidate { group, n_nodes, n_dofs, couplings, remark: Some(remark), surface: None, labels }
 }
 
 fn candidate(partition: &Partition, group: String, (labels, of_model): (Vec<i64>, usize), dofs: &[usize]) -> Candidate {
@@ -147,7 +149,7 @@ fn surface(points: &[[f64; 3]]) -> Option<Surface> {
 }
 
 /// How many of the six unit motions some dofs tell apart.
-fn rank(partition: &Partition, dofs: &[usize]) -> usize {
+pub(super) fn rank(partition: &Partition, dofs: &[usize]) -> usize {
     let sites: Vec<_> = dofs.iter().filter_map(|dof| partition.dofs[*dof].site).collect();
     if sites.is_empty() {
         return 0;

@@ -42,6 +42,7 @@ mod harwell_boeing;
 #[cfg(feature = "hdf5")]
 pub mod hdf5;
 mod hdf5_format;
+mod in_line;
 mod inclusion;
 mod indices;
 mod internal_forces;

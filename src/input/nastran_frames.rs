@@ -13,9 +13,9 @@ use std::path::Path;
 use super::bulk_cards::{Card, Cards, wrong};
 use super::bulk_lines::Place;
 use super::fortran::{real, whole};
+use super::in_line::Off;
 use super::local_system::{LocalSystem, SystemKind};
 use super::node_frames::NodeFrames;
-use crate::dofs::cross;
 use crate::error::{Error, Result};
 
 /// Fields of GRID and GRDSET behind their names.
@@ -41,7 +41,7 @@ pub(super) fn grid_frames(path: &Path) -> Result<Option<NodeFrames>> {
     let mut axes = BTreeMap::new();
     for (label, grid) in turned {
         let system = systems.system(grid.cd, &grid.place)?;
-        axes.insert(label, system.axes_at(systems.position(label, &grid.place)?));
+        axes.insert(label, system.axes_at(systems.located(label, &grid.place)?.point));
     }
     Ok(Some(NodeFrames { axes, rounded: BTreeMap::new(), place }))
 }
@@ -144,6 +144,12 @@ fn systems(path: &Path) -> Result<BTreeMap<i64, Definition>> {
     Ok(systems)
 }
 
+/// A point in the basic system, and by how much it may be off.
+struct Located {
+    point: [f64; 3],
+    off: Off,
+}
+
 /// Coordinate systems and what they are defined by.
 struct Systems<'a> {
     defined: BTreeMap<i64, Definition>,
@@ -172,28 +178,28 @@ impl Systems<'_> {
         let [a, b, c] = match defined {
             Defined::ByPoints(reference, points) => {
                 let reference = self.system(*reference, own)?;
-                points.map(|point| reference.point(point))
+                points.map(|point| Located { point: reference.point(point), off: reference.off(point) })
             }
             Defined::ByGrids(grids) => {
-                [self.position(grids[0], own)?, self.position(grids[1], own)?, self.position(grids[2], own)?]
+                [self.located(grids[0], own)?, self.located(grids[1], own)?, self.located(grids[2], own)?]
             }
         };
         self.open.borrow_mut().remove(&label);
-        let between = |from: [f64; 3], to: [f64; 3]| std::array::from_fn(|i| to[i] - from[i]);
-        let (z, xz): ([f64; 3], [f64; 3]) = (between(a, b), between(a, c));
-        // y is across z and what lies in the plane of x and z.
-        LocalSystem::new(*kind, a, cross(cross(z, xz), z), cross(z, xz)).ok_or_else(|| Error::FrameAxes {
-            path: own.path.to_path_buf(),
-            line: own.line,
-            found: format!("coordinate system {label} by the points {a:?}, {b:?} and {c:?}, which are on one line"),
+        let (points, off) = ([a.point, b.point, c.point], a.off.or(b.off).or(c.off));
+        LocalSystem::by_points(*kind, points, off).ok_or_else(|| {
+            let [a, b, c] = points;
+            let found =
+                format!("coordinate system {label} by the points {a:?}, {b:?} and {c:?}, which are on one line");
+            Error::FrameAxes { path: own.path.to_path_buf(), line: own.line, found }
         })
     }
 
     /// Where a grid point is in the basic system.
-    fn position(&self, label: i64, place: &Place) -> Result<[f64; 3]> {
+    fn located(&self, label: i64, place: &Place) -> Result<Located> {
         let Some(grid) = self.grids.get(&label) else {
             return Err(wrong(place, label.to_string().as_bytes(), "a grid point of the deck"));
         };
-        Ok(self.system(grid.cp, &grid.place)?.point(grid.position))
+        let system = self.system(grid.cp, &grid.place)?;
+        Ok(Located { point: system.point(grid.position), off: system.off(grid.position) })
     }
 }

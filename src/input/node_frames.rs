@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
 use super::decimal::Decimal;
+use super::in_line::Off;
 use super::table::{Row, Table, is_node_column, open_first_line};
-use crate::dofs::{Axes, AxisDigits, DofMap, RoundedAxes, spanned};
+use crate::dofs::{Axes, AxisDigits, DofMap, RoundedAxes};
 use crate::error::{Error, Result};
 use crate::sparse::Turning;
 
@@ -100,8 +101,9 @@ pub(super) fn node_frames(path: &Path, allowance: &Allowance) -> Result<NodeFram
         let [x, y] = [vector(&row, &columns[..3])?, vector(&row, &columns[3..])?];
         let wrong =
             |found: String| Error::FrameAxes { path: path.to_owned(), line, found: format!("node {node} has {found}") };
-        let axes =
-            spanned(x, y).ok_or_else(|| wrong(format!("x along {x:?} and y along {y:?}, which span no plane")))?;
+        let axes = Off::of_text([x, y].as_flattened())
+            .spanned(x, y)
+            .ok_or_else(|| wrong(format!("x along {x:?} and y along {y:?}, which span no plane")))?;
         if let Some(third) = &third {
             let z = vector(&row, third)?;
             let off = crate::dofs::unit(z).iter().zip(axes[2]).fold(0.0, |off: f64, (a, b)| off.max((a - b).abs()));

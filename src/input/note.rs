@@ -120,6 +120,11 @@ pub enum InputNote {
         /// Nodes whose rows were turned.
         n_nodes: usize,
     },
+    /// Rows were turned by axes that nothing compares with the stiffness.
+    TurnedUntested {
+        /// The file that gives the axes.
+        path: PathBuf,
+    },
     /// Nodes of shells or beams that CalculiX made into solids have got their nodes back.
     Expanded {
         /// The file of the dof map.
@@ -157,6 +162,7 @@ impl InputNote {
         match self {
             Self::LastRowEmpty { .. } => Some("W-INDEX-BASE"),
             Self::Transformed { .. } => Some("W-LOCAL-DIRECTIONS"),
+            Self::TurnedUntested { .. } => Some("W-FRAME-UNTESTED"),
             _ => None,
         }
     }
@@ -256,6 +262,12 @@ impl fmt::Display for InputNote {
                 "{}: {} along axes of their own; they are turned to the axes of the model, and what the tool says of them is along these",
                 file_name(path),
                 counted(*n_nodes, "node has rows", "nodes have rows")
+            ),
+            Self::TurnedUntested { path } => write!(
+                f,
+                "{}: no coordinates are given, so that nothing compares the axes of its nodes with the stiffness; wrong axes leave the \
+                 frequencies as they are and turn the interface: give `model.nodes`",
+                file_name(path)
             ),
             Self::Expanded { path, positions, n_nodes, n_made } => write!(
                 f,

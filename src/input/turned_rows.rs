@@ -39,6 +39,9 @@ pub(super) fn turning(
     let turned = dofs.map(|dofs| frames.turning(dofs)).transpose()?;
     if let Some((turning, n_nodes)) = turned.filter(|(_, n_nodes)| *n_nodes > 0) {
         let rounded = frames.rounded();
+        if model.nodes.is_none() {
+            notes.push(InputNote::TurnedUntested { path: frames.place.0.clone() });
+        }
         notes.push(InputNote::Turned { path: frames.place.0, n_nodes });
         return Ok(Some((turning, rounded)));
     }

@@ -32,6 +32,7 @@ pub use finding::{ASYMMETRY_WARN, Finding};
 pub use fit::{CoordinateFit, Misfit, RoundedCoordinates};
 pub use heavy_rows::HeavyRows;
 pub use scaling::Scaling;
+pub(crate) use site::ONE_PLACE;
 pub use site::{Frame, Site, recentred};
 pub use symmetry::{Asymmetry, make_symmetric};
 pub use weight::{PartWeight, Supports, Weight};

@@ -56,8 +56,8 @@ pub struct Frame {
     pub size: f64,
 }
 
-/// Distances relative to the farthest coordinate that are rounding of a mean.
-const ONE_PLACE: f64 = 1e-12;
+/// Distances relative to the farthest coordinate that are rounding: of a mean, or of what was fitted to the same nodes in another order.
+pub(crate) const ONE_PLACE: f64 = 1e-12;
 
 impl Frame {
     /// Of the dofs that are listed; those without a place do not count.

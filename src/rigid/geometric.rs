@@ -150,7 +150,7 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
 
 /// The motions with rest at the dofs that move by no more than rounding of the rest, where less force is left of that: what slides along guides
 /// leaves everything else at rest, and its combination from six motions not quite.
-fn settled(partition: &Partition, mut motions: Mat<f64>) -> Mat<f64> {
+pub(crate) fn settled(partition: &Partition, mut motions: Mat<f64>) -> Mat<f64> {
     /// Of the largest displacement: ten thousand roundings.
     const AT_REST: f64 = 1e-12;
     let scale = scales(partition);

@@ -26,7 +26,7 @@ pub use algebraic::from_matrices;
 pub(crate) use algebraic::{ZeroModes, lost_interface, refuse_uncounted, zero_modes};
 pub(crate) use energy::{largest_residual, noise_of_digits, zero_energy};
 pub use facts::facts;
-pub(crate) use geometric::moving_directions;
+pub(crate) use geometric::{moving_directions, settled};
 pub use of_partition::{counted_by_matrices, from_coordinates, rigid_body_modes};
 pub use passing::with_passing;
 pub(crate) use passing::{n_moving_less, n_passing, passing_motions, that_pass};

@@ -12,7 +12,7 @@ use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
 use crate::error::{Error, Result};
 use crate::factor::Cholesky;
 use crate::job::Eigensolver;
-use crate::model::{Finding, Site};
+use crate::model::{Finding, ONE_PLACE, Site};
 use crate::partition::{DofOrigin, Partition};
 use crate::random::SEED;
 use crate::sparse::diagonal;
@@ -146,7 +146,8 @@ fn free_particles(partition: &Partition) -> String {
     particles.map_or_else(String::new, |particles| format!("; {particles}"))
 }
 
-/// The diagonal of the box around all sites; none where they are one place.
+/// The diagonal of the box around all sites; none where they are one place but for rounding, which is no size to turn rotations into
+/// displacements by.
 fn extent(sites: &[Option<Site>]) -> Option<f64> {
     let mut low = [f64::INFINITY; 3];
     let mut high = [f64::NEG_INFINITY; 3];
@@ -157,7 +158,8 @@ fn extent(sites: &[Option<Site>]) -> Option<f64> {
         }
     }
     let size = (0..3).map(|axis| (high[axis] - low[axis]).powi(2)).sum::<f64>().sqrt();
-    (size > 0.0).then_some(size)
+    let far = low.iter().chain(&high).fold(0.0f64, |far, x| far.max(x.abs()));
+    (size > ONE_PLACE * far).then_some(size)
 }
 
 /// Puts a rigid motion into words: the axis it turns about, or the direction it moves in.

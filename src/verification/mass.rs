@@ -7,7 +7,7 @@ use super::evidence::{Evidence, NAMES, rigid_name};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::job::Expectation;
-use crate::model::{PartWeight, Supports};
+use crate::model::{PartWeight, Supports, Weight};
 use crate::number::quantity;
 use crate::partition::Partition;
 
@@ -126,8 +126,7 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> 
 /// something holds, such as those of a superelement with `[[fixed]]` of its own.
 pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
     let weight = partition.model.weight.as_ref()?;
-    let is_whole = weight.has_whole_nodes && weight.supports == Supports::None;
-    let motions = weight.motions.as_ref().filter(|_| is_whole)?;
+    let motions = weight.motions.as_ref().filter(|_| is_whole(weight))?;
     Some(of_a_body(motions.as_ref(), partition.precision.mass.share))
 }
 
@@ -135,7 +134,6 @@ pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
 /// all. None where M couples everything, and where supports may have taken rows out before.
 pub(crate) fn of_parts(partition: &Partition) -> Option<Check> {
     let weight = partition.model.weight.as_ref()?;
-    let is_whole = weight.has_whole_nodes && weight.supports == Supports::None;
     let of_part = |part: &PartWeight| {
         let check = of_a_body(part.motions.as_ref(), partition.precision.mass.share);
         let at = check.worst.as_ref().map(|at| format!("{at} of the part with node {}", part.first_node));
@@ -146,8 +144,13 @@ pub(crate) fn of_parts(partition: &Partition) -> Option<Check> {
             ..check
         }
     };
-    let checks = weight.parts.iter().filter(|_| is_whole).map(of_part);
+    let checks = weight.parts.iter().filter(|_| is_whole(weight)).map(of_part);
     checks.reduce(|worst, next| if dense::worse(next.value, worst.value) { next } else { worst })
+}
+
+/// Whether all of the mass is there that the model had: nothing held it before it was read.
+fn is_whole(weight: &Weight) -> bool {
+    weight.has_whole_nodes && weight.supports == Supports::None
 }
 
 /// M-16 against what the job expects.

@@ -11,6 +11,7 @@ use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::Equilibrated;
 use crate::error::Result;
+use crate::model::ONE_PLACE;
 use crate::rigid::scales;
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
@@ -81,8 +82,8 @@ fn remoteness(evidence: &Evidence<'_>) -> f64 {
         }
     }
     let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-    // A component of one node turns about itself.
-    if size > 0.0 { farthest / size } else { 1.0 }
+    // A component at one place, but for rounding, turns about itself.
+    if size > ONE_PLACE * farthest { farthest / size } else { 1.0 }
 }
 
 /// The direction that is worst, with the dof that its force is largest at.

@@ -154,6 +154,35 @@ fn faces_and_groups_with_held_nodes() {
     reduced(&place, files);
 }
 
+/// Nodes in line carry no patch: a prism that ends in edges along its longest axes has faces at the others.
+#[test]
+fn ends_that_are_edges_are_no_faces() {
+    let lozenge = |[x, y, z]: [f64; 3]| [x - y, x + y, 0.3 * z];
+    let mesh = supel_models::HexMesh::structured([4, 4, 2], lozenge, |_| true);
+    let place = Place::with(&mesh.assemble(&supel_models::Material::STEEL_SI));
+    let (job, text) = proposed(&place, ALL);
+    let names: Vec<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    assert_eq!(names, ["minus-z", "plus-z"], "{text}");
+    reduced(&place, ALL);
+}
+
+/// A node that is held in some directions has rows in the others.
+#[test]
+fn groups_that_are_partly_held_have_the_other_dofs() {
+    let mut model = steel_brick();
+    model.add_group("ROOT", |[x, _, _]| x == 0.0);
+    let root = model.groups["ROOT"].iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+    let place = Place::with(&model);
+    place.write("mesh.inp", deck(&model).as_bytes());
+    for (directions, said) in
+        [(":ux", "group ROOT: 9 nodes, 18 dofs; dofs of it are held"), ("", "group ROOT: 9 nodes, 0 dofs; it is held")]
+    {
+        let files = format!("K.mtx M.mtx --dofs dofs.txt --nodes mesh.inp --fix w={root}{directions}");
+        let text = init(&place, &files).expect(ExitCode::Done).out;
+        assert!(text.contains(said), "{text}");
+    }
+}
+
 /// What the flags say of the rows is in the job: axes of nodes, the memory.
 #[test]
 fn axes_of_nodes_and_memory_are_in_the_job() {

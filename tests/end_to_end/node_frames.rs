@@ -345,6 +345,10 @@ fn tables_that_are_no_axes_are_refused_by_line_and_node() {
         (sound.replace("-2,1,2", "4,4,2"), ["E-FRAME-AXES", "frames.csv:2: node 7 has x along"]),
         (sound.replace("2,2,1", "0,0,0"), ["E-FRAME-AXES", "which span no plane"]),
         (
+            sound.replace("2,2,1", "0.333333,0.666667,1").replace("-2,1,2", "0.666667,1.333333,2"),
+            ["E-FRAME-AXES", "frames.csv:2: node 7 has x along"],
+        ),
+        (
             sound.replace("y3\n", "y3,z1,z2,z3\n").replace("-2,1,2", "-2,1,2,-1,2,-2"),
             ["E-FRAME-AXES", "where x and y make it"],
         ),
@@ -453,6 +457,73 @@ fn systems_of_nastran_are_taken_from_the_deck() {
         let ended = place.reduce(&flags, reduction).expect(ExitCode::InputData);
         assert!(ended.err.contains(message), "{}", ended.err);
     }
+}
+
+/// Wrong axes leave every frequency what it is: without coordinates nothing tells them, and the run says so.
+#[test]
+fn axes_without_coordinates_are_said_to_be_untested() {
+    let sound = steel_brick();
+    let place = Place::with(&sound);
+    place.write("frames.csv", b"node,x1,x2,x3,y1,y2,y3\n5,1,1,0,-1,1,0\n");
+    let of_deck: String = (1i64..)
+        .zip(&sound.nodes)
+        .map(|(label, [x, y, z])| format!("GRID,{label},,{x:?},{y:?},{z:?},{}\n", if label == 5 { "7" } else { "" }))
+        .chain((1..=sound.nodes.len()).map(|label| format!("EXTRN,{label},123\n")))
+        .collect();
+    place.write("rows.pch", format!("BEGIN BULK\nCORD2R,7,,0.,0.,0.,0.,1.,2.\n,1.,0.,0.\n{of_deck}").as_bytes());
+    let text = |name: &str| place.text(name);
+    for (flags, file) in [
+        (["--dofs".to_owned(), text("dofs.txt"), "--frames".to_owned(), text("frames.csv")].to_vec(), "frames.csv"),
+        (["--dofs".to_owned(), text("rows.pch")].to_vec(), "rows.pch"),
+    ] {
+        let with_nodes =
+            [place.matrix_flags(), flags.clone(), ["--nodes".to_owned(), text("nodes.csv")].to_vec()].concat();
+        let reduction = "--interface hub=5,15,45 --method guyan";
+        let ended = place.reduce(&with_nodes, reduction).expect(ExitCode::InputData);
+        assert!(ended.err.contains("E-COORD"), "{}", ended.err);
+        place.reduce(&[place.matrix_flags(), flags].concat(), reduction).expect(ExitCode::Done);
+        let warnings = place.report("x.report.json")["body"]["warnings"].to_string();
+        assert!(warnings.contains("W-FRAME-UNTESTED") && warnings.contains(file), "{warnings}");
+    }
+}
+
+/// The axes of three points in line but for rounding would be those of the rounding.
+#[test]
+fn systems_of_nastran_by_points_in_line_are_refused_by_line() {
+    let sound = steel_brick();
+    let place = Place::with(&sound);
+    let grids: String = (1i64..)
+        .zip(&sound.nodes)
+        .map(|(label, [x, y, z])| format!("GRID,{label},,{x:?},{y:?},{z:?},{}\n", if label == 5 { "7" } else { "" }))
+        .collect();
+    let rows: String = (1..=sound.nodes.len()).map(|label| format!("EXTRN,{label},123\n")).collect();
+    let flags = |system: &str| {
+        place.write("rows.pch", format!("BEGIN BULK\n{system}\n{grids}{rows}").as_bytes());
+        let mut flags = place.matrix_flags();
+        flags.extend(["--dofs".into(), place.text("rows.pch"), "--nodes".into(), place.text("nodes.csv")]);
+        flags
+    };
+    let reduction = "--interface hub=5,15,45 --method guyan";
+    for system in [
+        "CORD2R,7,,.1,-.2,.3,.2,.1,.9\n,.3,.4,1.5",
+        "CORD2C,7,,.1,-.2,.3,.2,.1,.9\n,.3,.4,1.5",
+        "CORD2S,7,,0.,0.,0.,.333333,.666667,1.\n,.666667,1.333333,2.",
+        // Six digits: in line but for the last of them.
+        "CORD2R,7,,0.,0.,0.,.00333333,.00666667,.01\n,.00666667,.0133333,.02",
+        "CORD2R,7,8,1.,20.,.1,1.,20.,.3\n,1.,20.,.7\nCORD2C,8,,.1,.2,.3,.2,.7,.9\n,1.3,.4,1.5",
+        "CORD1R,7,91,92,93\nGRID,91,,.1,-.2,.3\nGRID,92,,.2,.1,.9\nGRID,93,,.3,.4,1.5",
+    ] {
+        let ended = place.reduce(&flags(system), reduction).expect(ExitCode::InputData);
+        assert!(
+            ended.err.contains("E-FRAME-AXES") && ended.err.contains("rows.pch:2: coordinate system 7"),
+            "{}",
+            ended.err
+        );
+    }
+    // One unit of the last digit apart, at a right angle: meant so. The rows are along other axes then.
+    let ended = place.reduce(&flags("CORD2R,7,,9.99901,0.,0.,9.99901,0.,.00001\n,9.99902,0.,0."), reduction);
+    let ended = ended.expect(ExitCode::Done);
+    assert!(ended.out.contains("1 node has rows along axes of their own"), "{}", ended.out);
 }
 
 /// Abaqus writes its labelled rows along the axes of `*TRANSFORM`.

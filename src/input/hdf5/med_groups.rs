@@ -7,6 +7,7 @@ use super::dataset::Dataset;
 use super::file::H5;
 use super::group::Group;
 use crate::error::{Error, Result};
+use crate::input::mesh::named_apart;
 use crate::number::counted;
 
 /// Names of the groups of each family number.
@@ -69,15 +70,8 @@ pub(super) fn read_groups(
     };
     let of_nodes = node_groups(&read_families(&families, "NOEUD")?, step, n_nodes)?;
     let of_elements = element_groups(&read_families(&families, "ELEME")?, step, n_nodes)?;
-    let mut groups = of_nodes;
-    for (name, nodes) in of_elements {
-        match groups.get(&name) {
-            Some(same) if *same == nodes => {}
-            Some(_) => drop(groups.insert(format!("{name} (elements)"), nodes)),
-            None => drop(groups.insert(name, nodes)),
-        }
-    }
-    Ok(groups.into_iter().map(|(name, nodes)| (name, nodes.into_iter().collect())).collect())
+    let listed = |groups: Groups| groups.into_iter().map(|(name, nodes)| (name, nodes.into_iter().collect())).collect();
+    Ok(named_apart(listed(of_nodes), [("elements", listed(of_elements))]))
 }
 
 /// Families with their group names; those without names say nothing to a user.

@@ -1,6 +1,6 @@
 //! Nodes, cells and groups of a mesh as the reader of a format leaves them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use crate::dofs::Nodes;
@@ -75,21 +75,58 @@ impl CellMesh {
     }
 }
 
-/// The groups of a mesh under one name each. Where a group of elements has the name of a group of nodes and other nodes, it is called
-/// `NAME (elements)`, and a surface `NAME (surface)`.
+/// The groups of a mesh under one name each. Where a group of elements has the name of a group of nodes, in whatever case, and other nodes,
+/// it is called `NAME (elements)`, and a surface `NAME (surface)`.
 pub(in crate::input) fn named_apart(
     nodes: BTreeMap<String, Vec<usize>>,
     others: impl IntoIterator<Item = (&'static str, BTreeMap<String, Vec<usize>>)>,
 ) -> BTreeMap<String, Vec<usize>> {
     let mut groups = nodes;
     for (kind, others) in others {
+        // Names of one kind are different as the file has them.
+        let mut taken: HashMap<String, Vec<String>> = HashMap::new();
+        groups.keys().for_each(|name| taken.entry(name.to_ascii_uppercase()).or_default().push(name.clone()));
         for (name, members) in others {
-            match groups.get(&name) {
-                Some(same) if *same == members => {}
-                Some(_) => drop(groups.insert(format!("{name} ({kind})"), members)),
-                None => drop(groups.insert(name, members)),
+            if groups.get(&name).is_some_and(|same| *same == members) {
+                continue;
             }
+            let mut alike = taken.get(&name.to_ascii_uppercase()).into_iter().flatten();
+            let is_taken = alike.any(|known| groups.get(known).is_some_and(|other| *other != members));
+            groups.insert(if is_taken { format!("{name} ({kind})") } else { name }, members);
         }
     }
     groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn groups<const N: usize>(named: [(&str, &[usize]); N]) -> BTreeMap<String, Vec<usize>> {
+        named.into_iter().map(|(name, members)| (name.to_owned(), members.to_vec())).collect()
+    }
+
+    #[test]
+    fn names_that_differ_in_case_alone_are_told_apart_by_what_they_are() {
+        let found = named_apart(
+            groups([("hub", &[1]), ("Foot", &[2, 3])]),
+            [
+                ("elements", groups([("HUB", &[4, 5]), ("foot", &[2, 3]), ("Skin", &[6]), ("SKIN", &[7])])),
+                ("surface", groups([("Hub", &[8]), ("skin", &[9]), ("Foot", &[2, 3])])),
+            ],
+        );
+        let expected = groups([
+            ("hub", &[1]),
+            ("HUB (elements)", &[4, 5]),
+            ("Hub (surface)", &[8]),
+            // The same nodes by either spelling.
+            ("Foot", &[2, 3]),
+            ("foot", &[2, 3]),
+            // Two groups of elements: the file tells them apart itself.
+            ("Skin", &[6]),
+            ("SKIN", &[7]),
+            ("skin (surface)", &[9]),
+        ]);
+        assert_eq!(found, expected);
+    }
 }

@@ -261,6 +261,13 @@ fn what_a_deck_cannot_mean_is_refused_with_its_line() {
             6,
             "the face S9 of element 5",
         ),
+        ("*NODE\n1, 0, 0, 0\n*TRANSFORM, NSET=NOSET\n1, 0, 0, 0, 1, 0\n", 3, "*TRANSFORM of NOSET, which has no nodes"),
+        (
+            "*PART, NAME=P\n*NODE\n1, 0, 0, 0\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n0, 0, 0\n\
+             .1, .2, .3, .1, .2, .30000000000000004, 90\n*END INSTANCE\n*END ASSEMBLY\n",
+            8,
+            "which are one point",
+        ),
     ];
     for (deck, wanted, words) in cases {
         let error = refused("deck.inp", deck);
@@ -272,6 +279,42 @@ fn what_a_deck_cannot_mean_is_refused_with_its_line() {
     let error = refused("deck.inp", "*NODE\n1, 0, 0, 0\n*NGEN\n1, 2\n");
     assert!(matches!(error, Error::DeckUnsupported { line: 3, .. }), "{error:?}");
     assert!(matches!(refused("deck.inp", "*HEADING\n"), Error::NoData { .. }));
+}
+
+/// Two points that are one, or directions that are one, but for the rounding of their numbers give no axes.
+#[test]
+fn axes_of_rounding_are_refused_with_their_line() {
+    let deck = |kind: &str, points: &str| {
+        format!("*NODE\n1, 0.5, 0.25, 1\n*NSET, NSET=A\n1\n*TRANSFORM, NSET=A, TYPE={kind}\n{points}\n")
+    };
+    for (kind, points) in [
+        ("R", "1, 2, 4, 2, 4, 8"),
+        ("R", "0.1, 0.3, 0.7, 0.2, 0.6, 1.4000000000000001"),
+        ("R", "0.333333, 0.666667, 1, 0.666667, 1.333333, 2"),
+        ("C", "0.1, 0.2, 0.3, 0.1, 0.2, 0.30000000000000004"),
+        ("S", "1, 2, 3, 1, 2, 3"),
+    ] {
+        let error = refused("deck.inp", deck(kind, points));
+        assert!(matches!(error, Error::FrameAxes { line: 5, .. }), "{kind} {points}: {error:?}");
+    }
+    for (kind, points) in
+        [("R", "1, 0, 0, 1, 0.01, 0"), ("C", "100.001, 0, 0, 100.002, 0, 0"), ("S", "0, 0, 0, 0, 0, 1e-9")]
+    {
+        read_text("deck.inp", deck(kind, points)).unwrap_or_else(|error| panic!("{kind} {points}: {error}"));
+    }
+}
+
+/// Names of sets count in any case: the elements of a name are not the nodes of it, however either is written.
+#[test]
+fn sets_whose_names_differ_in_case_alone_are_told_apart() {
+    let nodes = bricks_with(
+        "*NSET, NSET=hub\n1\n*ELSET, ELSET=HUB\n2\n*SURFACE, NAME=Hub\n1, S1\n*TRANSFORM, NSET=HUB\n0, 1, 0, -1, 0, 0\n",
+    )
+    .expect("a deck");
+    let names: Vec<&String> = nodes.groups.keys().filter(|name| name.to_ascii_lowercase().starts_with("hub")).collect();
+    assert_eq!(names, ["HUB (elements)", "Hub (surface)", "hub"]);
+    assert_eq!(group(&nodes, "hub"), [1]);
+    assert_eq!(group(&nodes, "HUB (elements)"), [5, 6, 7, 8, 11, 12, 13, 14]);
 }
 
 /// Sets that name each other over and over do not grow beyond what they hold.

@@ -103,7 +103,10 @@ fn wrong_grids_are_refused() {
     };
     let cases = [
         (array("////////AAAA", "vtkZLibDataCompressor"), "4294967295 blocks"),
-        (array("AQAAAACAAAAIAAAABAAAAA==AAAAAA==", "vtkLZ4DataCompressor"), "the compressor vtkLZ4DataCompressor"),
+        (
+            array("AQAAAACAAAAIAAAABAAAAA==AAAAAA==", "vtkLZ4DataCompressor"),
+            "vtkLZ4DataCompressor packed – write the mesh again with vtkZLibDataCompressor (zlib) or without a compressor",
+        ),
         (array("AQAAAACAAAAIAAAABAAAAA==AAAAAA==", "vtkZLibDataCompressor"), "packed data that are damaged"),
         (array("!", "vtkZLibDataCompressor"), "text that is not base64"),
         ("<VTKFile type=\"PolyData\"/>".to_owned(), "UnstructuredGrid"),

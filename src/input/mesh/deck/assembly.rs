@@ -10,6 +10,7 @@ use super::transforms::Transform;
 use crate::error::Result;
 use crate::input::allowance::Claim;
 use crate::input::banner::excerpt;
+use crate::input::in_line::Off;
 
 /// Bytes of a node or a corner of an element of an instance.
 const COPIED: u64 = 64;
@@ -149,10 +150,13 @@ impl Scopes {
         }
         claim.add(COPIED * (scope.nodes.labels.len() + scope.elements.nodes.len()) as u64)?;
         scope.instance = Some(name);
-        let mut motion = Vec::new();
+        let (mut motion, mut place) = (Vec::new(), lines.place());
         while let Some(line) = data_line(lines)? {
             match numbers(line) {
-                Some(numbers) if motion.len() < 2 => motion.push(numbers),
+                Some(numbers) if motion.len() < 2 => {
+                    motion.push(numbers);
+                    place = lines.place();
+                }
                 _ => return Err(wrong_line(lines, "a translation, and below it two points and an angle")),
             }
         }
@@ -160,8 +164,17 @@ impl Scopes {
             std::array::from_fn(|axis| motion.first().and_then(|numbers| numbers.get(axis)).copied().unwrap_or(0.0));
         let rotation = match motion.get(1).map(Vec::as_slice) {
             None => None,
-            Some(&[a, b, c, d, e, f, angle, ..]) => Some(([a, b, c], [d, e, f], angle)),
-            Some(_) => return Err(lines.error("another number of fields", "two points of an axis and an angle")),
+            Some(&[_, _, _, _, _, _, angle, ..]) if angle == 0.0 => None,
+            Some(numbers @ &[a, b, c, d, e, f, angle, ..]) => {
+                if !Off::of_text(&numbers[..6]).tells([d - a, e - b, f - c]) {
+                    let found = format!("an axis from {:?} to {:?}, which are one point", [a, b, c], [d, e, f]);
+                    return Err(lines.error_at(place, found, "two points of an axis and an angle"));
+                }
+                Some(([a, b, c], [d, e, f], angle))
+            }
+            Some(_) => {
+                return Err(lines.error_at(place, "another number of fields", "two points of an axis and an angle"));
+            }
         };
         for point in &mut scope.nodes.coordinates {
             *point = std::array::from_fn(|axis| point[axis] + translation[axis]);
@@ -236,9 +249,6 @@ fn rotated(point: [f64; 3], (from, to, angle): ([f64; 3], [f64; 3], f64)) -> [f6
     let minus = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] { std::array::from_fn(|axis| a[axis] - b[axis]) };
     let axis = minus(to, from);
     let length = dot(&axis, &axis).sqrt();
-    if length == 0.0 {
-        return point;
-    }
     let axis = axis.map(|x| x / length);
     let arm = minus(point, from);
     let (sin, cos) = angle.to_radians().sin_cos();
@@ -257,6 +267,5 @@ mod tests {
         for (found, expected) in turned.into_iter().zip([1.0, 1.0, 5.0]) {
             assert!((found - expected).abs() <= 8.0 * f64::EPSILON, "{turned:?}");
         }
-        assert_eq!(rotated([2.0, 0.0, 5.0], ([1.0; 3], [1.0; 3], 90.0)), [2.0, 0.0, 5.0]);
     }
 }

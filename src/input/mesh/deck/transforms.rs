@@ -12,8 +12,10 @@ use std::collections::BTreeMap;
 use super::keyword::Keyword;
 use super::lines::{DeckLines, Place};
 use super::sections::{data_line, numbers, wrong_line};
-use crate::dofs::{Axes, Nodes, cross};
+use crate::dofs::{Axes, Nodes, cross, spanned};
 use crate::error::{Error, Result};
+use crate::input::banner::excerpt;
+use crate::input::in_line::Off;
 use crate::input::local_system::{LocalSystem, SystemKind};
 use crate::input::node_frames::NodeFrames;
 
@@ -56,14 +58,18 @@ impl Transform {
     /// The axes of a node at a point; none where the two points give none.
     fn axes_at(&self, point: [f64; 3]) -> Option<Axes> {
         let [a, b] = self.points;
+        let off = Off::of_text(self.points.as_flattened());
         if self.kind == SystemKind::Rectangular {
-            return LocalSystem::new(self.kind, [0.0; 3], a, b).map(|system| system.axes_at(point));
+            return off.spanned(a, b);
         }
         let line: [f64; 3] = std::array::from_fn(|i| b[i] - a[i]);
+        if !off.tells(line) {
+            return None;
+        }
         // Any direction across the line: the axis of the model that is farthest from it leaves most.
         let least = (0..3).min_by(|i, j| line[*i].abs().total_cmp(&line[*j].abs()))?;
         let x = cross(line, std::array::from_fn(|i| f64::from(u8::from(i == least))));
-        let axes = LocalSystem::new(self.kind, a, x, cross(line, x))?.axes_at(point);
+        let axes = LocalSystem::new(self.kind, a, spanned(x, cross(line, x))?).axes_at(point);
         Some(match self.kind {
             SystemKind::Spherical => [axes[0], axes[2], axes[1].map(|component| -component)],
             SystemKind::Rectangular | SystemKind::Cylindrical => axes,
@@ -77,7 +83,12 @@ pub(super) fn frames(lines: &DeckLines, transforms: &[Transform], nodes: Option<
     let Some(first) = transforms.first() else { return Ok(None) };
     let mut axes = BTreeMap::new();
     for (transform, nodes) in transforms.iter().zip(nodes.into_iter().cycle()) {
-        for node in members(nodes, &transform.set) {
+        let members = members(nodes, &transform.set);
+        if members.is_empty() {
+            let found = format!("*TRANSFORM of {}, which has no nodes", excerpt(transform.set.as_bytes()));
+            return Err(lines.error_at(transform.place, found, "a set of nodes of the deck, or the label of one"));
+        }
+        for node in members {
             let own = transform.axes_at(nodes.coordinates[node]).ok_or_else(|| {
                 let [a, b] = transform.points;
                 let (path, line) = lines.at(transform.place);

@@ -27,6 +27,11 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 impl Encoding<'_> {
+    /// The compressor, where it is one that is not read.
+    pub(super) fn unread_compressor(&self) -> Option<&str> {
+        self.compressor.filter(|name| *name != "vtkZLibDataCompressor")
+    }
+
     /// The bytes of an array from base64, which other arrays may follow. Head and data are padded one by one, or without a compressor together.
     pub(super) fn of_base64(self, text: &[u8]) -> Result<Vec<u8>, String> {
         let characters = |from: usize, n: usize| -> Vec<u8> {
@@ -73,9 +78,6 @@ impl Encoding<'_> {
 
     /// Unpacks blocks whose number and sizes are in the head.
     fn unpacked(self, head: &[u8], data: &[u8]) -> Result<Vec<u8>, String> {
-        if self.compressor != Some("vtkZLibDataCompressor") {
-            return Err(format!("the compressor {}", self.compressor.unwrap_or_default()));
-        }
         let n_blocks = self.number(head, 0)?;
         let mut bytes = Vec::new();
         let mut at = 0_usize;

@@ -197,12 +197,23 @@ impl Reader<'_> {
                 ));
             }
         };
+        if let Some(name) = self.encoding.unread_compressor().filter(|_| !bytes.as_ref().is_ok_and(Vec::is_empty)) {
+            return Err(self.packed(array, name));
+        }
         let bytes = bytes.map_err(|found| self.error(array, found, expected))?;
         let found = numbers(&bytes, kind, self.encoding.endian);
         found.ok_or_else(|| {
             let found = format!("{} bytes of type {}", bytes.len(), excerpt(kind.as_bytes()));
             self.error(array, found, "a whole number of values of a type of VTK")
         })
+    }
+
+    /// The error of arrays that a compressor packed which is not read.
+    fn packed(&self, array: Node<'_, '_>, compressor: &str) -> Error {
+        let line = self.document.text_pos_at(array.range().start).row.into();
+        let found = format!("an array that {} packed", excerpt(compressor.as_bytes()));
+        let advice = "write the mesh again with vtkZLibDataCompressor (zlib) or without a compressor";
+        Error::DeckUnsupported { path: self.path.to_owned(), line, found, advice }
     }
 
     fn of_text(&self, array: Node<'_, '_>, kind: &str, text: &str) -> Result<Numbers> {
