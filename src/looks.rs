@@ -163,10 +163,10 @@ pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer))
         if next.is_none() && !examination::is_of_model(&error) {
             return Err(error);
         }
-        examination.refused(&error, next.as_ref().map(|next| next.how));
+        examination.refused(&attempt, &error, next.as_ref().map(|next| next.how.as_str()));
         match next {
             Some(next) => attempt = next.job,
-            None => return Ok(examination.ended(attempt, None)),
+            None => return Ok(examination.given_up(attempt)),
         }
     };
     let allowance = Allowance::of(resources.allowed(&attempt));
@@ -178,7 +178,7 @@ pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer))
     match reduced {
         Ok(outcome) => Ok(examination.ended(attempt, Some(outcome.report.body))),
         Err(error) if examination::is_of_model(&error) => {
-            examination.refused(&error, None);
+            examination.refused(&attempt, &error, None);
             Ok(examination.ended(attempt, None))
         }
         Err(error) => Err(error),
