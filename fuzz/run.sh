@@ -33,6 +33,7 @@ seeds mesh ../fixtures/mesh/*.msh ../fixtures/mesh/*.vtk ../fixtures/mesh/*.vtu 
 seeds modes modes/*
 seeds expansion ../fixtures/calculix/*.12d
 seeds job ../examples/*/*.toml
+seeds assembly seeds_own/assembly/*
 seeds states seeds_own/states/*
 seeds values seeds_own/values/*
 # A superelement is made by the program itself, so that it is one of this version.

@@ -79,8 +79,7 @@ fn certified_superelement(
     let rows = certification::mode_rows(&partition, &facts);
     let allowance = Allowance::of(resources.allowed(job));
     let given = ForeignSuperelement::read(files, &rows, (job.model.duplicates, &allowance))?;
-    let interface = certification::interface(&partition, &given);
-    let (given, reordered) = given.in_order_of_basis(&interface);
+    let (given, interface, told) = given.placed(&partition);
     // Where no coordinate is a row of the model nothing tells which are static answers, and half of them may be.
     let n_modes = match interface.coordinates.len() {
         0 => given.n_coordinates().div_ceil(2),
@@ -103,7 +102,7 @@ fn certified_superelement(
         },
     )?;
     let mut certification = ReducedCertification::new(&foreign, &interface, free);
-    certification.notes.extend(given.basis.notes.iter().chain(&given.notes).cloned().chain(reordered));
+    certification.notes.extend(given.basis.notes.iter().chain(&given.notes).cloned().chain(told));
     let source = ReducedSource::of(&given);
     drop(partition);
     certification.complete(match held_modes(job, (&given, &interface), (resources, observer)) {
@@ -163,10 +162,10 @@ pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer))
         if next.is_none() && !examination::is_of_model(&error) {
             return Err(error);
         }
-        examination.refused(&error, next.as_ref().map(|next| next.how));
+        examination.refused(&attempt, &error, next.as_ref().map(|next| next.how.as_str()));
         match next {
             Some(next) => attempt = next.job,
-            None => return Ok(examination.ended(attempt, None)),
+            None => return Ok(examination.given_up(attempt)),
         }
     };
     let allowance = Allowance::of(resources.allowed(&attempt));
@@ -178,7 +177,7 @@ pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer))
     match reduced {
         Ok(outcome) => Ok(examination.ended(attempt, Some(outcome.report.body))),
         Err(error) if examination::is_of_model(&error) => {
-            examination.refused(&error, None);
+            examination.refused(&attempt, &error, None);
             Ok(examination.ended(attempt, None))
         }
         Err(error) => Err(error),

@@ -29,6 +29,7 @@ fn target(name: &str) -> fn(&[u8]) {
         "modes" => targets::read_modes,
         "superelement" => targets::read_superelement,
         "job" => targets::read_job,
+        "assembly" => targets::read_assembly,
         "states" => targets::read_states,
         "values" => targets::read_values,
         "expansion" => targets::read_expansion,

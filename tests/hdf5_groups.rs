@@ -12,7 +12,7 @@ use hdf5_metno::{File, Group, Location};
 use rayon::prelude::*;
 
 /// A file of each convention, and what it is converted to.
-const FILES: [(&str, &str); 21] = [
+const FILES: [(&str, &str); 22] = [
     ("hdf5/matlab.mat", "mtx"),
     ("hdf5/anndata.h5ad", "mtx"),
     ("hdf5/h5sparse.h5", "mtx"),
@@ -21,6 +21,7 @@ const FILES: [(&str, &str); 21] = [
     ("hdf5/half.h5", "mtx"),
     ("hdf5/single_precision.h5", "mtx"),
     ("hdf5/filters.h5", "mtx"),
+    ("hdf5/nastran.h5", "mtx"),
     ("matrices/octave.h5", "mtx"),
     ("matrices/julia.h5", "mtx"),
     ("matrices/binsparse.h5", "mtx"),

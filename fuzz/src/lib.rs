@@ -1,11 +1,12 @@
-//! What the targets call: a file of any content, read as a matrix, a dof map, nodes, a mesh, modes, frequencies, a superelement, a job or
-//! states. A reader gives a value or an error, and takes no more memory than a multiple of the file.
+//! What the targets call: a file of any content, read as a matrix, a dof map, nodes, a mesh, modes, frequencies, a superelement, a job, an
+//! assembly or states. A reader gives a value or an error, and takes no more memory than a multiple of the file.
 //!
 //! The test `fuzz_regressions` of the program has this file, too: it hands every file of `regressions` to the target of its folder.
 
 use std::cell::RefCell;
 use std::path::Path;
 
+use supel::cli::AssemblyFile;
 use supel::dofs::{Direction, Dof};
 use supel::error::Selector;
 use supel::input::{
@@ -93,6 +94,14 @@ pub fn read_job(content: &[u8]) {
         if let Err(error) = Job::read(path).and_then(|job| job.validate()) {
             assert!(!error.to_string().is_empty());
         }
+    });
+}
+
+/// Reads a content as the document of an assembly.
+pub fn read_assembly(content: &[u8]) {
+    with_file(content, |path| match AssemblyFile::read(path) {
+        Ok(assembly) => assert!(assembly.jobs.iter().all(|(name, job)| !name.is_empty() && job.is_absolute())),
+        Err(error) => assert!(!error.to_string().is_empty()),
     });
 }
 

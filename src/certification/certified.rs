@@ -1,5 +1,6 @@
 //! What was found of a result.
 
+use super::angles::AmongKnown;
 use super::band::{Band, Completed, completed};
 use super::checks;
 use super::claims::Claims;
@@ -81,9 +82,10 @@ pub fn certified_pairs(
     let standing = independent.standing;
     let completed = completed((&search, partition), independent.modes, (claims, &measured), band)?;
     let completed = completed.with_first_elastic((claims, &standing), || first_elastic(component, job))?;
-    let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);
+    let known = AmongKnown::of(problem.modal(), (claims, &measured), &completed)?;
+    let judged = judged_pairs(&problem, (claims, &measured), &standing, (&completed, known.as_ref()));
     let completed = completed.ending_with(judged.highest);
-    let judged = judged_pairs(&problem, (claims, &measured), &standing, &completed);
+    let judged = judged_pairs(&problem, (claims, &measured), &standing, (&completed, known.as_ref()));
     let checks = checks::checks(component, (claims, &measured), (&judged, &completed));
     let scaling = partition.scaling;
     Ok(Certification {
@@ -91,7 +93,7 @@ pub fn certified_pairs(
         n_rigid: problem.n_rigid(),
         count: count_of(&completed, &judged, |sigma| scaling.hertz(sigma)),
         n_not_sought: completed.n_not_sought,
-        notes: checks::notes(component, claims, &judged),
+        notes: checks::notes(component, claims, &judged, &checks),
         checks,
         pairs: judged.pairs,
         missing: judged.missing,

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use faer::Mat;
 
+use super::angles::{AmongKnown, Angle, angle};
 use super::band::{CLUSTER, Completed};
 use super::claims::Claims;
 use super::independence::Standing;
@@ -41,10 +42,12 @@ pub(super) struct Judged {
     pub(super) n_rigid_missing: usize,
     /// λ of the highest mode that a pair is.
     pub(super) highest: Option<f64>,
-    /// δ/γ of each pair that is a mode: the sine of the angle between its shape and the modes of its cluster.
-    pub(super) angles: Vec<Option<f64>>,
+    /// The angle between the shape of each pair that is a mode and the modes of its cluster.
+    pub(super) angles: Vec<Option<Angle>>,
     /// How far each quotient may be from an eigenvalue of K and M by the force that is left over, relative to it.
     pub(super) residual_bars: Vec<f64>,
+    /// What the digits of each shape leave open of its frequency, relative to it.
+    pub(super) of_shapes: Vec<f64>,
 }
 
 /// Judges every pair.
@@ -52,7 +55,7 @@ pub(super) fn judged_pairs(
     problem: &BoundaryProblem<'_>,
     (claims, measured): (&Claims, &Measured),
     standing: &[Standing],
-    completed: &Completed,
+    (completed, known): (&Completed, Option<&AmongKnown>),
 ) -> Judged {
     let modes = &completed.modes;
     let truth = Truth { lambda: &modes.lambda, clusters: clusters(&modes.lambda), completed, sigma: measured.sigma };
@@ -80,13 +83,24 @@ pub(super) fn judged_pairs(
     let n_rigid_missing = if has_rigid { problem.n_rigid().saturating_sub(n_rigid) } else { 0 };
     let residual_bars: Vec<f64> =
         (0..claims.count()).map(|claim| truth.residual_bar(claim, kinds[claim].cluster, measured)).collect();
+    let of_shape = |claim: usize| {
+        let gap = kinds[claim].cluster.map_or(1.0, |cluster| truth.gap(cluster));
+        of_digits_of_shape(claims, measured, (claim, gap))
+    };
+    let of_shapes: Vec<f64> = (0..claims.count()).map(of_shape).collect();
     let context = Context { problem, claims, measured, truth: &truth };
-    let pairs = (0..claims.count()).map(|claim| context.pair(claim, &kinds[claim], residual_bars[claim])).collect();
-    let angles = (0..claims.count()).map(|claim| truth.angle(claim, kinds[claim].cluster, measured)).collect();
+    let pair = |claim: usize| context.pair(claim, &kinds[claim], (residual_bars[claim], of_shapes[claim]));
+    let pairs = (0..claims.count()).map(pair).collect();
+    let angle_of = |claim: usize| {
+        let cluster = kinds[claim].cluster?;
+        Some(angle(known, claim, (&truth.clusters[cluster], truth.gap(cluster)), measured))
+    };
+    let angles = (0..claims.count()).map(angle_of).collect();
     let (missing, n_cut) = context.missing(&taken);
     let mut is_taken = truth.clusters.iter().zip(&taken).filter(|(_, taken)| !taken.is_empty());
     let highest = is_taken.next_back().map(|(cluster, _)| truth.lambda[cluster.end - 1]);
-    Judged { pairs, missing, n_above: truth.n_above(), n_cut, n_rigid_missing, highest, angles, residual_bars }
+    let n_above = truth.n_above();
+    Judged { pairs, missing, n_above, n_cut, n_rigid_missing, highest, angles, residual_bars, of_shapes }
 }
 
 /// What a pair was found to be.
@@ -187,10 +201,6 @@ impl Truth<'_> {
         };
         of_distance(of_residual)
     }
-
-    fn angle(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> Option<f64> {
-        cluster.map(|cluster| (measured.lacking[claim] / self.gap(cluster)).min(1.0))
-    }
 }
 
 /// What the pairs are put into words with.
@@ -206,7 +216,7 @@ impl Context<'_> {
         self.problem.component.partition.scaling.hertz(lambda)
     }
 
-    fn pair(&self, claim: usize, found: &Found, residual_bar: f64) -> JudgedPair {
+    fn pair(&self, claim: usize, found: &Found, (residual_bar, of_shape): (f64, f64)) -> JudgedPair {
         let Self { problem, claims, measured, truth } = self;
         let lambda = measured.lambda[claim];
         let stated = claims.lambda.as_ref().map(|stated| stated[claim]);
@@ -225,8 +235,9 @@ impl Context<'_> {
         let is_off = match (found.kind, mode) {
             (PairKind::Mode, Some(mode)) => {
                 let off = (stated_or_own.max(0.0) / mode).sqrt() - 1.0;
-                let of_digits = claims.value_rounding[claim] + of_digits_in_frequency(measured, claim);
-                !(off.abs() <= INEXACT + of_digits && 0.5 * residual_bar <= INEXACT)
+                let of_shape = of_shape.min(MOST_OF_DIGITS);
+                let of_digits = claims.value_rounding[claim] + of_digits_in_frequency(measured, claim) + of_shape;
+                !(off.abs() <= INEXACT + of_digits && 0.5 * residual_bar <= INEXACT + of_shape)
             }
             (PairKind::RigidBody, _) => {
                 let of_digits = |first: f64| of_digits_in_energy(measured, claim, first).min(MOST_OF_DIGITS);
@@ -296,6 +307,19 @@ impl Context<'_> {
 pub(super) fn of_digits_in_frequency(measured: &Measured, claim: usize) -> f64 {
     let bar = 0.5 * measured.errors[claim].data_bar;
     if bar.is_nan() { 0.0 } else { bar.min(MOST_OF_DIGITS) }
+}
+
+/// Length of what the digits of a shape round, relative to it, in the norm of K: δxᵀKδx ≤ u² |x|ᵀ|K||x|.
+pub(super) fn of_rounding(claims: &Claims, measured: &Measured, claim: usize) -> f64 {
+    let rounding = claims.shape_rounding[claim];
+    if rounding > f64::EPSILON { rounding * measured.errors[claim].cancellation.sqrt() } else { 0.0 }
+}
+
+/// What they leave open of its frequency, relative to it: the quotient is off by the square of that length at most, and δ²/γ, the bar of
+/// its residual, by that over γ; of a root it is half.
+fn of_digits_of_shape(claims: &Claims, measured: &Measured, (claim, gap): (usize, f64)) -> f64 {
+    let share = 0.5 * of_rounding(claims, measured, claim).powi(2) * (1.0 + 1.0 / gap);
+    if share.is_nan() { 0.0 } else { share }
 }
 
 /// What they leave open of the energy of a shape, relative to the first elastic mode.

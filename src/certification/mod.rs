@@ -11,6 +11,7 @@
 //! out. Where they are fewer, the interval is cut by further counts until it is known where they are missing, and the own eigensolver
 //! finds them there. What of the result is no mode is compared with all that are.
 
+mod angles;
 mod band;
 mod carrier;
 mod certified;

@@ -13,16 +13,18 @@ use crate::sparse::product;
 const TRANSPOSED: &str = "the dataset is square: by the force that is left over its modes are those that MATLAB stores, the transpose of \
                           what h5py would write";
 
-/// The modes the way round that leaves less force over, and a note where that is not the way in which they were read.
+/// The modes along the axes of the model, the way round that leaves less force over, and a note where that is not the way in which they
+/// were read. What is a row of the files, and along which axes, is known once it is known which way round they are.
 pub fn right_way_round(partition: &Partition, modes: ForeignModes) -> (ForeignModes, Option<&'static str>) {
     if modes.orientation == Orientation::Known {
-        return (modes, None);
+        return (modes.along_model(), None);
     }
     let n = modes.columns.len();
-    let turned: Vec<Vec<f64>> = (0..n).map(|row| modes.columns.iter().map(|column| column[row]).collect()).collect();
-    let turned = ForeignModes { columns: turned, ..modes.clone() };
-    match left_over(partition, &turned) < left_over(partition, &modes) {
-        true => (turned, Some(TRANSPOSED)),
+    let of_row = |row: usize| modes.columns.iter().map(|column| column[row]).collect();
+    let transposed = ForeignModes { columns: (0..n).map(of_row).collect(), ..modes.clone() }.along_model();
+    let modes = modes.along_model();
+    match left_over(partition, &transposed) < left_over(partition, &modes) {
+        true => (transposed, Some(TRANSPOSED)),
         false => (modes, None),
     }
 }

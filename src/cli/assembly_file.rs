@@ -9,11 +9,11 @@ use crate::job::{text_of, toml_failure};
 
 /// An assembly by its document.
 #[derive(Debug)]
-pub(super) struct AssemblyFile {
+pub struct AssemblyFile {
     /// Components by their names, with the documents of their jobs.
-    pub(super) jobs: Vec<(String, PathBuf)>,
+    pub jobs: Vec<(String, PathBuf)>,
     /// Pairs of interfaces, as after `--join`.
-    pub(super) joins: Vec<String>,
+    pub joins: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -36,7 +36,7 @@ impl AssemblyFile {
     ///
     /// # Errors
     /// A file that cannot be read; [`Error::JobSyntax`].
-    pub(super) fn read(path: &Path) -> Result<Self> {
+    pub fn read(path: &Path) -> Result<Self> {
         let text = text_of(path)?;
         let document: Document =
             toml::from_str(&text).map_err(|error| toml_failure("this is no assembly: ", &error, &text, path))?;

@@ -84,6 +84,7 @@ use command::Command;
 use refusal::{Form, Refusal};
 
 pub use answer::{Stdout, Terminal};
+pub use assembly_file::AssemblyFile;
 pub use calibration::rates;
 pub use exit_code::ExitCode;
 pub use pipeline::{Calibration, Certify, Examine, Foresee, Measure, Pipeline, Reduce, Verify};

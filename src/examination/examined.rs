@@ -37,6 +37,8 @@ pub struct Examination {
     facts: Option<InputFacts>,
     /// The nodes of the job, whatever was left out since.
     given_nodes: Option<PathBuf>,
+    /// The job that a stage refused first for what it refuses still.
+    refused: Option<Job>,
 }
 
 /// What was found.
@@ -70,15 +72,29 @@ impl Examination {
         Self { given_nodes: job.model.nodes.clone(), ..Self::default() }
     }
 
-    /// Keeps why a stage has refused a model, and how it goes on; what was wrong before and still is, is said once.
-    pub fn refused(&mut self, error: &Error, went_on: Option<&str>) {
+    /// Keeps why a stage has refused a job, and how it goes on; what was wrong before and still is, is said once, with all that was left out
+    /// for it. Where that did not help, it went on nowhere.
+    pub fn refused(&mut self, job: &Job, error: &Error, went_on: Option<&str>) {
         let finding = Finding::of_error(error, went_on);
         // Without nodes and map another name of the place is all that differs.
         let is_of_matrices = matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit);
-        let is_known = |other: &Finding| other.code == finding.code && (is_of_matrices || other.what == finding.what);
-        if !self.findings.iter().any(is_known) {
-            self.findings.push(finding);
+        let is_known =
+            |other: &&mut Finding| other.code == finding.code && (is_of_matrices || other.what == finding.what);
+        match self.findings.iter_mut().find(is_known) {
+            Some(known) => {
+                known.went_on = known.went_on.take().zip(went_on).map(|(before, now)| format!("{before}, {now}"))
+            }
+            None => {
+                self.refused = Some(job.clone());
+                self.findings.push(finding);
+            }
         }
+    }
+
+    /// Ends with a model that stages refuse whatever is left out of the last job: the job is the one that has all that did not matter.
+    pub fn given_up(mut self, last: Job) -> Examined {
+        let job = self.refused.take().unwrap_or(last);
+        self.ended(job, None)
     }
 
     /// What to try after an error. Matrices that are exchanged either way are not tried a third time.

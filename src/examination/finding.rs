@@ -63,13 +63,10 @@ impl Finding {
             None => (warning.message.clone(), format!("`supel explain {}` says what to do", warning.code)),
         };
         let (remedy, lines) = match warning.code {
-            "W-DATA-PRECISION" => (
-                format!("{remedy}; until then checks of a reduction may fail, and no superelement is written"),
-                vec![
-                    "stiffness_digits = 17       # [model] of the job, if the numbers are exact".to_owned(),
-                    "mass_digits = 17".to_owned(),
-                ],
-            ),
+            "W-DATA-PRECISION" => {
+                let lines = lines_of_remedy(&remedy);
+                (format!("{remedy}; until then checks of a reduction may fail, and no superelement is written"), lines)
+            }
             _ => (remedy, Vec::new()),
         };
         Self { severity: Severity::Warning, code: Some(warning.code), what, remedy, lines, went_on: None }
@@ -97,13 +94,27 @@ impl Finding {
     }
 }
 
+/// One triangle for both.
+const ONE_TRIANGLE: [&str; 2] = [
+    "symmetric = \"lower\"         # [model] of the job, or --symmetric lower: where the upper triangle is incomplete",
+    "symmetric = \"upper\"         # where the lower one is",
+];
+
+/// Lines for the keys of a job that a remedy names, and for no others: what is wrong decides which of them help.
+fn lines_of_remedy(remedy: &str) -> Vec<String> {
+    const OF_KEYS: [(&str, &[&str]); 3] = [
+        ("model.symmetric", &ONE_TRIANGLE),
+        ("model.stiffness_digits", &["stiffness_digits = 17       # [model] of the job, if the numbers are exact"]),
+        ("model.mass_digits", &["mass_digits = 17            # [model] of the job, if the numbers are exact"]),
+    ];
+    let named = OF_KEYS.iter().filter(|(key, _)| remedy.contains(key));
+    named.flat_map(|(_, lines)| lines.iter().map(|line| (*line).to_owned())).collect()
+}
+
 /// Lines that do what an error asks for, where lines can.
 fn lines_of(error: &Error) -> Vec<String> {
     let lines: &[&str] = match error {
-        Error::Unsymmetric { .. } => &[
-            "symmetric = \"lower\"         # [model] of the job, or --symmetric lower: where the upper triangle is incomplete",
-            "symmetric = \"upper\"         # where the lower one is",
-        ],
+        Error::Unsymmetric { .. } => &ONE_TRIANGLE,
         Error::EmptyRows { .. } => &["drop_empty = true           # [model] of the job, or --drop-empty"],
         Error::ConstraintGround { .. } => {
             &["constraints_to_ground = \"accept\" # [model] of the job, or --constraints-to-ground accept"]

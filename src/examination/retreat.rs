@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::{Error, ErrorClass};
-use crate::job::Job;
+use crate::job::{Job, NodeSelection};
 use crate::sparse::Triangle;
 
 /// A job that a stage may accept after it has refused another one.
@@ -12,7 +12,7 @@ pub struct Retreat {
     /// The job.
     pub job: Job,
     /// What is different, in words.
-    pub how: &'static str,
+    pub how: String,
 }
 
 /// Whether an error speaks of the model, and not of the machine or of the command line.
@@ -48,6 +48,9 @@ pub(super) fn retreat(job: &Job, error: &Error) -> Option<Retreat> {
         }
         Error::SameMatrix { .. } | Error::SizeMismatch { .. } => return None,
         // Whatever is wrong with nodes, map or constraints: matrices alone may be sound.
+        _ if is_of_frames(error, model.frames.as_deref()) && model.frames.take().is_some() => {
+            "without the axes of nodes"
+        }
         _ if model.constraints.take().is_some() => "without the constraints",
         // The matrix names its rows.
         Error::RowUnknown { .. } if model.dofs.take().is_some() => "without the dof map",
@@ -60,13 +63,31 @@ pub(super) fn retreat(job: &Job, error: &Error) -> Option<Retreat> {
         _ if model.dofs.take().is_some() => "without the dof map",
         _ => return None,
     };
-    // Held dofs are named by nodes, which rows alone do not have.
-    let has_labels = next.model.dofs.is_some() || next.model.nodes.is_some();
-    if !has_labels {
-        next.model.frames = None;
-        next.fixed.retain(|fixed| matches!(fixed.nodes, crate::job::NodeSelection::Rows { .. }));
-    }
+    let how = with_what_needs_labels(&mut next, how);
     Some(Retreat { job: next, how })
+}
+
+/// Leaves out what names nodes where nothing says any longer which rows these have, and says so.
+fn with_what_needs_labels(next: &mut Job, how: &str) -> String {
+    let mut left_out = vec![how.to_owned()];
+    if next.model.dofs.is_none() && next.model.nodes.is_none() {
+        left_out.extend(next.model.frames.take().map(|_| "without the axes of nodes".to_owned()));
+        let n_fixed = next.fixed.len();
+        next.fixed.retain(|fixed| matches!(fixed.nodes, NodeSelection::Rows { .. }));
+        left_out.extend((next.fixed.len() < n_fixed).then(|| "with nothing held at nodes".to_owned()));
+    }
+    left_out.join(", ")
+}
+
+/// Whether an error speaks of the table of axes, which is at `table`.
+fn is_of_frames(error: &Error, table: Option<&Path>) -> bool {
+    match error {
+        Error::TableColumn { path, .. } | Error::TableRow { path, .. } | Error::TableField { path, .. } => {
+            Some(path.as_path()) == table
+        }
+        Error::NodeRepeated { path, .. } | Error::NoData { path, .. } => Some(path.as_path()) == table,
+        _ => error.code().starts_with("E-FRAME"),
+    }
 }
 
 /// Whether an error speaks of the dof map, which is at `map`.

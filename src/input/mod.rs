@@ -58,6 +58,7 @@ mod member;
 mod mesh;
 mod mesh_input;
 mod mode_format;
+mod mode_formats;
 mod mode_matrix;
 mod mode_rounding;
 mod mode_rows;

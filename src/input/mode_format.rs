@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::Allowance;
+use super::mode_matrix::Meaning;
 use super::mode_rows::ModeRows;
 use super::value_unit::ValueUnit;
 
@@ -13,6 +14,7 @@ pub(super) struct ModeSource<'a> {
     pub(super) member: Option<String>,
     /// The rows of the matrices in their files.
     pub(super) rows: &'a ModeRows,
+    pub(super) meaning: Meaning,
     pub(super) allowance: &'a Allowance,
 }
 

@@ -7,6 +7,41 @@ use crate::error::{Error, Result};
 /// Bytes of a number.
 pub(super) const NUMBER: u64 = 8;
 
+/// What the numbers of a file are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Meaning {
+    /// A mode in each column, none of them zero everywhere.
+    Shapes,
+    /// A number of each of so many modes, in a column or in a row. Zeros are those of rigid-body motion.
+    Values { n_modes: usize },
+}
+
+impl Meaning {
+    /// The number of columns of a file.
+    pub(super) fn checked_count(self, path: &Path, found: u64, n_rows: usize) -> Result<usize> {
+        match self {
+            Self::Shapes => checked_count(path, found, n_rows),
+            Self::Values { n_modes } => checked_count(path, found, n_modes),
+        }
+    }
+
+    /// All of the columns, where those without a number in the file are missing or empty.
+    pub(super) fn completed(
+        self,
+        mut columns: Vec<Vec<f64>>,
+        [n_rows, n_columns]: [usize; 2],
+    ) -> Result<Vec<Vec<f64>>> {
+        columns.resize_with(n_columns, Vec::new);
+        if self == Self::Shapes
+            && let Some(mode) = columns.iter().position(Vec::is_empty)
+        {
+            return Err(Error::ModesNothing { mode: mode + 1, found: "zero everywhere" });
+        }
+        columns.iter_mut().filter(|column| column.is_empty()).for_each(|column| column.resize(n_rows, 0.0));
+        Ok(columns)
+    }
+}
+
 /// The number of columns of a file: one at least, and no more than rows, which independent ones cannot be.
 pub(super) fn checked_count(path: &Path, found: u64, n_rows: usize) -> Result<usize> {
     let count = usize::try_from(found).ok().filter(|count| (1..=n_rows).contains(count));

@@ -1,7 +1,7 @@
 //! Natural frequencies of modes that another program computed: a number for each mode, in a file or in a list.
 //!
-//! Files are Matrix Market arrays, NumPy arrays, datasets of HDF5 files, or text with one number on each line. In text a line that
-//! begins with `#` or `%` is a comment.
+//! Files have the formats of shapes, with the numbers in a column or in a row, or are text with one number on each line. In text a line
+//! that begins with `#` or `%` is a comment.
 
 use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
@@ -9,12 +9,10 @@ use std::path::{Path, PathBuf};
 use super::Allowance;
 use super::banner::excerpt;
 use super::decimal::Decimal;
-use super::file_start::FileStart;
 use super::fortran::real;
 use super::member::split_member;
+use super::mode_formats::values_of_modes;
 use super::mode_rounding::ModeRounding;
-use super::modes_file::mode_columns;
-use super::npy_header::is_array;
 use super::source::read_error;
 use super::table::{FirstLine, open_first_line};
 use super::value_unit::ValueUnit;
@@ -101,22 +99,13 @@ fn rounding_of(numbers: &[f64]) -> ModeRounding {
 }
 
 fn of_file(path: &Path, n_modes: usize, allowance: &Allowance) -> Result<Vec<f64>> {
-    let (file, _) = split_member(path);
-    let start = FileStart::of(&file)?;
-    let is_list = !start.is_hdf5() && !is_array(&start.head) && !start.holds(b"%%MatrixMarket");
-    if is_list {
-        return of_text(&file, n_modes);
-    }
     let count = |found| Error::ValuesCount { path: Some(path.to_owned()), found, n_modes };
-    let columns = mode_columns(path, n_modes, allowance).map_err(|error| match error {
-        Error::ModesRows { found, .. } => count(found),
+    let numbers = values_of_modes(path, n_modes, allowance).map_err(|error| match error {
+        Error::ModesRows { found, .. } | Error::ModesColumns { found, .. } => count(found),
         Error::ModesFormat { path, line, found, .. } => Error::ValuesFormat { path, line, found, expected: EXPECTED },
         other => other,
     })?;
-    match columns.columns.as_slice() {
-        [numbers] => Ok(numbers.clone()),
-        several => Err(count((several.len() * n_modes) as u64)),
-    }
+    numbers.map_or_else(|| of_text(&split_member(path).0, n_modes), Ok)
 }
 
 /// The numbers of a text: on lines of one each, or on one line.

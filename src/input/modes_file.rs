@@ -9,11 +9,11 @@ use super::allowance::Claim;
 use super::file_start::FileStart;
 use super::hdf5_format;
 use super::member::split_member;
-use super::mode_matrix::{NUMBER, checked_count};
+use super::mode_matrix::{Meaning, NUMBER};
 use super::npy;
 use super::npy_header::is_array;
 use super::rectangular::{Content, RectangularFile};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::regular_file::{digest, unchanged};
 
 /// The modes of a file.
@@ -28,9 +28,22 @@ pub struct ModeColumns {
 /// Reads the modes of a file, for matrices of `n_rows` rows in their files, in the memory that is allowed.
 ///
 /// # Errors
-/// A file that cannot be read or has no modes; [`Error::ModesRows`] and [`Error::ModesColumns`] where it has another size;
-/// [`Error::MemoryRead`]; [`Error::Changed`] where it is written meanwhile.
+/// A file that cannot be read or has no modes; [`ModesRows`](crate::error::Error::ModesRows) and
+/// [`ModesColumns`](crate::error::Error::ModesColumns) where it has another size; [`MemoryRead`](crate::error::Error::MemoryRead);
+/// [`Changed`](crate::error::Error::Changed) where it is written meanwhile.
 pub fn mode_columns(path: &Path, n_rows: usize, allowance: &Allowance) -> Result<ModeColumns> {
+    columns_of_numbers(path, (n_rows, Meaning::Shapes), allowance)
+}
+
+/// Reads the columns of a file, whatever its numbers mean.
+///
+/// # Errors
+/// Those of [`mode_columns`].
+pub(super) fn columns_of_numbers(
+    path: &Path,
+    (n_rows, meaning): (usize, Meaning),
+    allowance: &Allowance,
+) -> Result<ModeColumns> {
     let (file, dataset) = split_member(path);
     unchanged(&file, || {
         let start = FileStart::of(&file)?;
@@ -40,16 +53,16 @@ pub fn mode_columns(path: &Path, n_rows: usize, allowance: &Allowance) -> Result
         }
         let claim = allowance.claim(&file);
         if start.packing.is_none() && is_array(&start.head) {
-            let columns = npy::columns(&file, n_rows, &claim)?;
+            let columns = npy::columns(&file, (n_rows, meaning), &claim)?;
             return Ok(ModeColumns { columns, digest: digest(&file)? });
         }
-        in_text(&file, n_rows, &claim)
+        in_text(&file, (n_rows, meaning), &claim)
     })
 }
 
-fn in_text(path: &Path, n_rows: usize, claim: &Claim<'_>) -> Result<ModeColumns> {
+fn in_text(path: &Path, (n_rows, meaning): (usize, Meaning), claim: &Claim<'_>) -> Result<ModeColumns> {
     let file = RectangularFile::open(path, Content::Modes { n_rows })?;
-    let n_columns = checked_count(path, file.n_columns, n_rows)?;
+    let n_columns = meaning.checked_count(path, file.n_columns, n_rows)?;
     // A column takes its memory when it gets its first value: a head may promise any number of them.
     let mut columns: Vec<Vec<f64>> = Vec::new();
     let digest = file.read(|entry| {
@@ -65,9 +78,6 @@ fn in_text(path: &Path, n_rows: usize, claim: &Claim<'_>) -> Result<ModeColumns>
         values[entry.row] += entry.value;
         Ok(())
     })?;
-    columns.resize_with(n_columns, Vec::new);
-    match columns.iter().position(Vec::is_empty) {
-        Some(mode) => Err(Error::ModesNothing { mode: mode + 1, found: "zero everywhere" }),
-        None => Ok(ModeColumns { columns, digest }),
-    }
+    let columns = meaning.completed(columns, [n_rows, n_columns])?;
+    Ok(ModeColumns { columns, digest })
 }

@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::allowance::Claim;
-use super::mode_matrix::{NUMBER, checked_count, columns_of, refuse_not_finite};
+use super::mode_matrix::{Meaning, NUMBER, columns_of, refuse_not_finite};
 use super::npy_header::{Failure, Header};
 use super::numpy_array::stored_as;
 use super::raw_numbers;
@@ -18,7 +18,7 @@ const EXPECTED: &str = "a NumPy array of real numbers, of one or two dimensions,
 /// # Errors
 /// [`Error::ModesFormat`] for what is no such array, [`Error::ModesRows`] and [`Error::ModesColumns`] for another size,
 /// [`Error::MemoryRead`]; those of reading the file.
-pub(super) fn columns(path: &Path, n_rows: usize, claim: &Claim<'_>) -> Result<Vec<Vec<f64>>> {
+pub(super) fn columns(path: &Path, (n_rows, meaning): (usize, Meaning), claim: &Claim<'_>) -> Result<Vec<Vec<f64>>> {
     let failed = |source| Error::Read { path: path.to_owned(), source };
     let wrong = |found: String| Error::ModesFormat { path: path.to_owned(), line: None, found, expected: EXPECTED };
     let mut file = regular_file::open(path)?;
@@ -38,7 +38,7 @@ pub(super) fn columns(path: &Path, n_rows: usize, claim: &Claim<'_>) -> Result<V
     if rows != n_rows as u64 {
         return Err(Error::ModesRows { path: path.to_owned(), found: rows, n: n_rows });
     }
-    let n_columns = checked_count(path, n_columns, n_rows)?;
+    let n_columns = meaning.checked_count(path, n_columns, n_rows)?;
     let n_numbers = (n_rows as u64).checked_mul(n_columns as u64);
     let promised = n_numbers.and_then(|n| n.checked_mul(stored.0.size() as u64));
     let there = n_bytes.saturating_sub(header.length);

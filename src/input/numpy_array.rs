@@ -8,7 +8,7 @@ use super::compressed::order;
 use super::format::MatrixSource;
 use super::indices::Indices;
 use super::mode_format::{ModeSource, ReadModes};
-use super::mode_matrix::{NUMBER, Order, checked_count, columns_of, refuse_not_finite};
+use super::mode_matrix::{NUMBER, Order, columns_of, refuse_not_finite};
 use super::npy_header::{Failure as NoHeader, Header};
 use super::raw_numbers::{self, Endian, Failure, Kind, fill};
 use super::source::read_error;
@@ -182,7 +182,7 @@ impl<'a, R: Read> Array<'a, R> {
         if rows != n_rows as u64 {
             return Err(Error::ModesRows { path: path.to_owned(), found: rows, n: n_rows });
         }
-        let n_columns = checked_count(path, n_columns, n_rows)?;
+        let n_columns = source.meaning.checked_count(path, n_columns, n_rows)?;
         // The numbers as they are read and in columns.
         source.allowance.claim(path).add(2 * NUMBER * rows * n_columns as u64)?;
         let order = self.header.order;

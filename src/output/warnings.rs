@@ -198,11 +198,17 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
             ),
         });
     }
-    let advice = if stiffness.digits.are_all() && mass.digits.are_all() {
-        "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them out"
-    } else {
-        "write the matrices with all their digits, and stiffnesses of like size, or say model.stiffness_digits = 17 and \
-         model.mass_digits = 17 in the job if their numbers are exact"
+    let keys = [("model.stiffness_digits", stiffness), ("model.mass_digits", mass)];
+    let short = keys.into_iter().filter(|(_, matrix)| !matrix.digits.are_all());
+    let stated: Vec<String> = short.map(|(key, _)| format!("{key} = 17")).collect();
+    let advice = match stated.as_slice() {
+        [] => "double precision has no more for stiffnesses of such different size: make stiff ties and thin elements softer or leave them \
+               out"
+            .to_owned(),
+        stated => format!(
+            "write the matrices with all their digits, and stiffnesses of like size, or say {} in the job if their numbers are exact",
+            stated.join(" and ")
+        ),
     };
     Some(Warning {
         code: "W-DATA-PRECISION",

@@ -51,6 +51,11 @@ impl Turning {
         Self { blocks, places }
     }
 
+    /// Three rows for each part of a node, and the axes that they are along.
+    pub fn blocks(&self) -> &[([u32; 3], Axes)] {
+        &self.blocks
+    }
+
     /// Tᵀx in place of x.
     ///
     /// # Panics

@@ -236,11 +236,64 @@ fn a_negative_spring_is_named() {
     assert!(all.iter().all(|(_, text)| !text.contains("supports hold the component")), "{all:?}");
 }
 
-/// What is wrong with the mass is the same without the nodes.
+/// What is wrong with the mass is the same without the nodes: it is said once, and that nothing went on. The job that is proposed has all
+/// files.
 #[test]
 fn a_negative_mass_is_found_once() {
-    let found = examined(&Place::with(&scaled(&steel_brick(), 1.0, -1.0)), ALL, ExitCode::CheckFailed);
-    finding(&found, "E-NEG-MASS");
+    let place = Place::with(&scaled(&steel_brick(), 1.0, -1.0));
+    let found = examined(&place, ALL, ExitCode::CheckFailed);
+    let told = finding(&found, "E-NEG-MASS");
+    assert!(told.contains("\"went_on\":null"), "{told}");
+    assert!(!doctor(&place, ALL).expect(ExitCode::CheckFailed).out.contains("went on"), "{told}");
+    let [k, m, dofs, nodes] = ["K.mtx", "M.mtx", "dofs.txt", "nodes.csv"].map(|name| place.text(name));
+    let job = supel(&["init", &k, &m, "--dofs", &dofs, "--nodes", &nodes]).out;
+    assert!(["dofs", "nodes"].iter().all(|key| job.contains(&format!("\n{key} "))), "{job}");
+}
+
+/// All that was left out is said, the dofs that a flag holds and the axes of nodes, too.
+#[test]
+fn what_goes_with_the_nodes_is_said() {
+    let place = Place::with(&steel_brick());
+    place.write("frames.csv", b"node,x1,x2,x3,y1,y2,y3\n3,1,0,0,0,1,0\n");
+    place.write("short.txt", b"1 1\n");
+    let rest = "K.mtx M.mtx --dofs short.txt --nodes nodes.csv --frames frames.csv --fix foot=1";
+    let found = examined(&place, rest, ExitCode::CheckFailed);
+    let told = finding(&found, "E-MAP-TEXT");
+    for part in
+        ["without the dof map, and so without the nodes", "without the axes of nodes", "with nothing held at nodes"]
+    {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    // A table of axes that is wrong is left out by itself.
+    place.write("frames.csv", b"node,x1,x2,x3,y1,y2,y3\n3,1,0,0,2,0,0\n");
+    let rest = format!("{ALL} --frames frames.csv --fix foot=1");
+    let found = examined(&place, &rest, ExitCode::CheckFailed);
+    let told = finding(&found, "E-FRAME-AXES");
+    assert!(told.contains("\"went_on\":\"without the axes of nodes\""), "{told}");
+    assert_eq!(found["severity"], "error");
+}
+
+/// What leaves frequencies open decides which lines help: triangles that differ are no matter of digits.
+#[test]
+fn advice_for_uncertain_frequencies_is_that_which_helps() {
+    let model = boxed_frame(1.0, 0.005, &Material::STEEL_SI);
+    let largest = model.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2.abs()));
+    let place = Place::with(&model);
+    let first = model.stiffness.iter().position(|entry| entry.0 < entry.1).expect("an entry");
+    let n = model.n;
+    let mut text = format!("%%MatrixMarket matrix coordinate real general\n{n} {n} {}\n", model.stiffness.len());
+    for (at, (row, col, value)) in model.stiffness.iter().enumerate() {
+        let off = if at == first { 5e-7 * largest } else { 0.0 };
+        text += &format!("{} {} {:e}\n", row + 1, col + 1, value + off);
+    }
+    place.write("K.mtx", text.as_bytes());
+    let told = finding(&examined(&place, ALL, ExitCode::Done), "W-DATA-PRECISION");
+    assert!(told.contains("symmetric = ") && !told.contains("_digits"), "{told}");
+    // Of matrices one of which has all digits, the other one is named.
+    let place = Place::with(&Model { mass: steel_brick().mass, ..rounded(&steel_brick(), 4) });
+    let found = serde_json::from_str(&doctor(&place, &format!("{ALL} --json")).out).expect("JSON");
+    let told = finding(&found, "W-DATA-PRECISION");
+    assert!(told.contains("stiffness_digits = 17") && !told.contains("mass_digits"), "{told}");
 }
 
 #[test]

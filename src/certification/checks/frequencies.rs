@@ -70,9 +70,8 @@ impl Subject<'_> {
             name: "frequencies are those of the full model",
             equation: "max |f − f_model| / f_model, with the error bar that the residual leaves",
             value: found.value,
-            limits: found.limits.capped(0.0, WITHIN_DIGITS[0]),
-            // What digits explain is no failure up to a hundredth: it warns.
-            fail_above: WITHIN_DIGITS[0].max(found.limits.data.min(WITHIN_DIGITS[1])),
+            limits: found.limits,
+            fail_above: found.fail_above,
             worst: Some(self.told_frequency(found.claim)),
         })
     }
@@ -87,10 +86,14 @@ impl Subject<'_> {
         let own = (pair.shape_hz / mode - 1.0).abs();
         // Rounding of λ is twice that of its root; of a frequency it is what it is, and that of a shape acts by its square. What the
         // matrices leave open is no fault of the result: M-09 judges it.
-        let of_shape = 0.5 * self.of_digits_in_energy(claim).powi(2);
-        let data = self.claims.value_rounding[claim] + of_shape + of_digits_in_frequency(self.measured, claim);
+        let data = self.claims.value_rounding[claim]
+            + self.judged.of_shapes[claim]
+            + of_digits_in_frequency(self.measured, claim);
         let limits = Limits { engineering: NOTICED_BAR, arithmetic: 0.0, data };
-        OfPair { claim, value: difference.max(own) + bar, limits }
+        let [limits, excused] = WITHIN_DIGITS.map(|most| limits.capped(0.0, most));
+        // What digits explain is no failure up to a hundredth: it warns.
+        let fail_above = WITHIN_DIGITS[0].max(excused.data);
+        OfPair { claim, value: difference.max(own) + bar, limits, fail_above }
     }
 
     fn told_frequency(&self, claim: usize) -> String {
@@ -122,7 +125,7 @@ impl Subject<'_> {
         let of_pair = |claim: usize| {
             let data = of_digits_in_energy(self.measured, claim, first);
             let limits = Limits { engineering: RIGID_ENERGY, arithmetic: 0.0, data }.capped(0.0, MOST_OF_DIGITS);
-            OfPair { claim, value: stated(claim).abs() / first, limits }
+            OfPair { claim, value: stated(claim).abs() / first, limits, fail_above: NOT_RIGID.max(limits.data) }
         };
         let found = OfPair::worst(rigid.into_iter().map(of_pair))?;
         Some(Check {
@@ -131,7 +134,7 @@ impl Subject<'_> {
             equation: "max |λ| / λ of the first elastic mode",
             value: found.value,
             limits: found.limits,
-            fail_above: NOT_RIGID.max(found.limits.data),
+            fail_above: found.fail_above,
             worst: Some(self.name(found.claim)),
         })
     }

@@ -6,10 +6,16 @@ use crate::certification::pair::{JudgedPair, PairKind};
 use crate::eigen::NOTICED_BAR;
 use crate::modes::Component;
 use crate::number::{counted, quantity};
+use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 /// What is said besides the checks, one sentence each.
-pub(in crate::certification) fn notes(component: Component<'_>, claims: &Claims, judged: &Judged) -> Vec<String> {
-    let mut notes = Vec::new();
+pub(in crate::certification) fn notes(
+    component: Component<'_>,
+    claims: &Claims,
+    judged: &Judged,
+    checks: &[Check],
+) -> Vec<String> {
+    let mut notes = Vec::from_iter(few_digits(claims, checks));
     if judged.n_cut > 0 {
         notes.push(format!(
             "the result ends inside a group of modes of one frequency: {} of it more in the model; ask for {} more",
@@ -29,6 +35,26 @@ pub(in crate::certification) fn notes(component: Component<'_>, claims: &Claims,
     notes.extend(order(judged));
     notes.extend(unjudged(judged));
     notes
+}
+
+/// Shapes whose digits are what some checks warn of.
+fn few_digits(claims: &Claims, checks: &[Check]) -> Option<String> {
+    /// The checks that shapes alone decide.
+    const OF_SHAPES: [&str; 4] = ["M-01", "M-03", "M-04", "M-08"];
+    let rounding = claims.shape_rounding.iter().copied().fold(0.0, f64::max);
+    let is_open = |check: &&Check| {
+        OF_SHAPES.contains(&check.id) && check.verdict() == Verdict::Warn && check.limits.active() == ActiveLimit::Data
+    };
+    let open: Vec<&str> = checks.iter().filter(is_open).map(|check| check.id).collect();
+    // Half a unit of the last of d digits is 0.5 · 10^(1 − d).
+    let digits = 1.0 - (2.0 * rounding).log10();
+    (rounding > f64::EPSILON && !open.is_empty()).then(|| {
+        format!(
+            "the shapes have {digits:.0} digits: what these leave open is more than the limits of {} let pass, so that no more is proved of \
+             the shapes than their digits say; write more of them",
+            open.join(", ")
+        )
+    })
 }
 
 /// A result of which no elastic pair lies in the band: what else was checked says nothing of its modes.

@@ -1,6 +1,8 @@
 //! Shapes by themselves and among each other.
 
 use super::subject::{OfPair, Subject, worst};
+use crate::certification::angles::Angle;
+use crate::certification::judgement::of_rounding;
 use crate::certification::pair::PairKind;
 use crate::certification::strayed;
 use crate::dense::{self, NOISE_FACTOR};
@@ -8,6 +10,9 @@ use crate::eigen::mass_orthogonality;
 use crate::number::quantity;
 use crate::sparse::product;
 use crate::verification::check::{Check, Limits};
+
+/// The most of two shapes in each other that their digits excuse: a hundredth of the mass or the energy of one.
+const MOST_EXCUSED: f64 = 1e-1;
 
 impl Subject<'_> {
     /// M-01, with the quotient of each shape: whether the result states another frequency is a matter of C-01.
@@ -41,6 +46,7 @@ impl Subject<'_> {
             arithmetic: NOISE_FACTOR * f64::EPSILON * found.largest_terms,
             data: self.of_digits_of(&modes) * found.largest_terms,
         };
+        let excused = limits.capped(0.0, MOST_EXCUSED);
         let limits = limits.capped(1e-6, 1e-3);
         (modes.len() > 1).then(|| Check {
             id: "M-03",
@@ -48,7 +54,7 @@ impl Subject<'_> {
             equation: "max |XᵀMX − I|, each shape at unit modal mass",
             value: found.error,
             limits,
-            fail_above: limits.value().max(1e-2),
+            fail_above: limits.value().max(1e-2).max(excused.data),
             worst: Some(format!("{} and {}", self.name(modes[a]), self.name(modes[b]))),
         })
     }
@@ -76,6 +82,7 @@ impl Subject<'_> {
             arithmetic: NOISE_FACTOR * f64::EPSILON * cancellation,
             data: self.of_digits_of(&modes) * cancellation,
         };
+        let excused = limits.capped(0.0, MOST_EXCUSED);
         let limits = limits.capped(1e-3, 1e-2);
         let (value, (a, b)) = found;
         (modes.len() > 1).then(|| Check {
@@ -84,7 +91,7 @@ impl Subject<'_> {
             equation: "max |x_iᵀKx_j| / √(λ_i λ_j), i ≠ j",
             value,
             limits,
-            fail_above: limits.value().max(3e-2),
+            fail_above: limits.value().max(3e-2).max(excused.data),
             worst: Some(format!("{} and {}", self.name(modes[a]), self.name(modes[b]))),
         })
     }
@@ -92,7 +99,7 @@ impl Subject<'_> {
     /// M-08.
     pub(super) fn angles(&self) -> Option<Check> {
         let angle = |claim: usize| Some((claim, self.judged.angles[claim]?));
-        let known = self.elastic().into_iter().filter_map(angle).map(|(claim, value)| self.angle(claim, value));
+        let known = self.elastic().into_iter().filter_map(angle).flat_map(|(claim, angle)| self.angle(claim, angle));
         let found = OfPair::worst(known)?;
         Some(Check {
             id: "M-08",
@@ -100,18 +107,23 @@ impl Subject<'_> {
             equation: "max sin ∠(x, eigenvectors of its cluster) ≤ δ/γ, in the norm of K − σM",
             value: found.value,
             limits: found.limits,
-            fail_above: 1e-1,
+            fail_above: found.fail_above,
             worst: Some(self.name(found.claim)),
         })
     }
 
-    /// δ/γ of a pair, and what digits make of it: those of the shape what they make of δ, over the same γ.
-    fn angle(&self, claim: usize, value: f64) -> OfPair {
-        let lacking = self.measured.lacking[claim];
-        let of_shape = if lacking > 0.0 { value * self.of_digits_in_energy(claim) / lacking } else { 0.0 };
-        let data = of_shape + self.component.partition.precision.share();
-        let limits = Limits { engineering: 1e-3, arithmetic: 0.0, data }.capped(0.0, 1e-2);
-        OfPair { claim, value, limits }
+    /// The angle of a pair, and what it has of known modes by itself, each with what the digits of the shape make of it by the length of what
+    /// they round.
+    fn angle(&self, claim: usize, angle: Angle) -> [OfPair; 2] {
+        /// The most that digits excuse without a warning, and at all: a quarter of the energy of a shape.
+        const MOST_EXCUSED: [f64; 2] = [1e-2, 0.5];
+        let rounded = of_rounding(self.claims, self.measured, claim);
+        [(angle.value, angle.per_rounding), (angle.of_known, 1.0)].map(|(value, per_rounding)| {
+            let data = per_rounding * rounded + self.component.partition.precision.share();
+            let limits = Limits { engineering: 1e-3, arithmetic: 0.0, data };
+            let [limits, excused] = MOST_EXCUSED.map(|most| limits.capped(0.0, most));
+            OfPair { claim, value, limits, fail_above: excused.data.max(1e-1) }
+        })
     }
 
     /// C-06.

@@ -36,13 +36,20 @@ pub(super) struct OfPair {
     pub(super) claim: usize,
     pub(super) value: f64,
     pub(super) limits: Limits,
+    pub(super) fail_above: f64,
 }
 
 impl OfPair {
-    /// The value that is worst compared with its limits; none of no pairs.
+    /// The value that is worst compared with its limits, one that fails before all that warn; none of no pairs.
     pub(super) fn worst(values: impl IntoIterator<Item = Self>) -> Option<Self> {
         let share = |of_pair: &Self| of_pair.value / of_pair.limits.value();
-        values.into_iter().reduce(|worst, next| if dense::worse(share(&next), share(&worst)) { next } else { worst })
+        let fails = |of_pair: &Self| of_pair.value.is_nan() || of_pair.value > of_pair.fail_above;
+        let is_worse = |next: &Self, worst: &Self| match (fails(next), fails(worst)) {
+            (true, false) => true,
+            (false, true) => false,
+            _ => dense::worse(share(next), share(worst)),
+        };
+        values.into_iter().reduce(|worst, next| if is_worse(&next, &worst) { next } else { worst })
     }
 }
 
@@ -65,12 +72,6 @@ impl Subject<'_> {
         if rounding > f64::EPSILON { NOISE_FACTOR * rounding } else { 0.0 }
     }
 
-    /// What they leave of δ: rounding δx of a shape has δxᵀKδx ≤ u² |x|ᵀ|K||x|.
-    pub(super) fn of_digits_in_energy(&self, claim: usize) -> f64 {
-        let rounding = self.claims.shape_rounding[claim];
-        if rounding > f64::EPSILON { rounding * self.measured.errors[claim].cancellation.sqrt() } else { 0.0 }
-    }
-
     /// What they leave of a measure of some pairs at most.
     pub(super) fn of_digits_of(&self, claims: &[usize]) -> f64 {
         claims.iter().map(|claim| self.of_digits(*claim)).fold(0.0, f64::max)
@@ -80,5 +81,23 @@ impl Subject<'_> {
         let pair = &self.judged.pairs[claim];
         let hertz = pair.stated_hz.unwrap_or(pair.shape_hz);
         format!("mode {} at {} Hz", pair.number, quantity(hertz, 6))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What fails is not passed over for what is further beyond a smaller limit and warns.
+    #[test]
+    fn a_pair_that_fails_is_the_worst() {
+        let limits = |data: f64| Limits { engineering: 1e-4, arithmetic: 0.0, data };
+        let fails = OfPair { claim: 0, value: 2e-2, limits: limits(1.9e-2), fail_above: 1e-2 };
+        let warns = OfPair { claim: 1, value: 9e-4, limits: limits(0.0), fail_above: 1e-3 };
+        for pairs in [[fails, warns], [warns, fails]] {
+            assert_eq!(OfPair::worst(pairs).expect("a pair").claim, 0);
+        }
+        let worse = OfPair { claim: 2, value: 3e-2, ..fails };
+        assert_eq!(OfPair::worst([fails, warns, worse]).expect("a pair").claim, 2);
     }
 }

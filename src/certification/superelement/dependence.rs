@@ -94,7 +94,7 @@ mod tests {
             let [k, m] = [k, m].map(|a| {
                 let given = Mat::from_fn(2, 2, |i, j| a[i][j]);
                 let (projected, terms) = (given.clone(), vec![2e9; 2]);
-                Pair { given, projected, terms, asymmetry: 0.0, rounding: [0.0; 2] }
+                Pair { sizes: given.clone(), given, projected, terms, asymmetry: 0.0, rounding: [0.0; 2] }
             });
             Condition::of(sum_at_unit_diagonal([&k, &m]).as_ref()).expect("converges").value
         };

@@ -40,7 +40,10 @@ pub struct ForeignSuperelement {
 pub struct ReducedMatrix {
     /// All of its entries, r × r.
     pub values: Mat<f64>,
-    /// What an entry may be off by: relative to it, and whatever it is.
+    /// What the rounding of each entry is relative to: how large it is in the file, and where coordinates were turned the terms that it is
+    /// the sum of.
+    pub sizes: Mat<f64>,
+    /// What an entry may be off by: relative to its size, and whatever it is.
     pub rounding: [f64; 2],
     /// BLAKE3 digest of the file's bytes, lower-case hexadecimal.
     pub digest: String,
@@ -79,6 +82,7 @@ impl ReducedMatrix {
         }
         let mut values = Mat::zeros(n_columns, n_columns);
         input.matrix.iter().for_each(|(value, (row, column))| values[(row as usize, column as usize)] = *value);
-        Ok(Self { values, rounding: input.digits.half_a_unit(), digest: input.digest })
+        let sizes = Mat::from_fn(n_columns, n_columns, |i, j| values[(i, j)].abs());
+        Ok(Self { values, sizes, rounding: input.digits.half_a_unit(), digest: input.digest })
     }
 }

@@ -53,7 +53,9 @@ pub(super) struct Pair {
     pub(super) terms: Vec<f64>,
     /// max |A − Aᵀ| of what was read, relative to its largest entry.
     pub(super) asymmetry: f64,
-    /// What an entry may be off by: relative to it, and whatever it is, relative to the largest.
+    /// What the rounding of each entry is relative to, r × r.
+    pub(super) sizes: Mat<f64>,
+    /// What an entry may be off by: relative to its size, and whatever it is, relative to the largest.
     pub(super) rounding: [f64; 2],
 }
 
@@ -142,9 +144,12 @@ struct Places<'a> {
 impl Places<'_> {
     fn pair(&self, (full, basis): (&SparseMatrix, &Mat<f64>), given: &ReducedMatrix, unit: f64) -> Pair {
         let r = self.order.len();
-        let entry =
-            |i: usize, j: usize| given.values[(self.order[i], self.order[j])] / (unit * self.units[i] * self.units[j]);
-        let mut scaled = Mat::from_fn(r, r, entry);
+        let scaled_of = |matrix: &Mat<f64>| {
+            let entry =
+                |i: usize, j: usize| matrix[(self.order[i], self.order[j])] / (unit * self.units[i] * self.units[j]);
+            Mat::from_fn(r, r, entry)
+        };
+        let mut scaled = scaled_of(&given.values);
         let asymmetry = dense::symmetrise(&mut scaled);
         let mut projected = dense::gram(basis.as_ref(), product(full, basis.as_ref()).as_ref());
         dense::symmetrise(&mut projected);
@@ -152,6 +157,7 @@ impl Places<'_> {
         let largest = given.values.norm_max().max(f64::MIN_POSITIVE);
         Pair {
             given: scaled,
+            sizes: scaled_of(&given.sizes),
             projected,
             terms: absolute_energy(full, basis.as_ref()),
             asymmetry,
@@ -199,7 +205,7 @@ impl Pair {
     pub(super) fn changed_by_digits(&self, q: &[f64]) -> f64 {
         let [relative, absolute] = self.rounding;
         let absolute = absolute * self.given.norm_max();
-        let of_entry = |i: usize, j: usize| relative * self.given[(i, j)].abs() + absolute;
+        let of_entry = |i: usize, j: usize| relative * self.sizes[(i, j)] + absolute;
         let entries = (0..q.len()).flat_map(|j| (0..q.len()).map(move |i| (i, j)));
         // Roundings of either sign add up like the root of their squares.
         entries.map(|(i, j)| (q[i] * q[j] * of_entry(i, j)).powi(2)).sum::<f64>().sqrt()
@@ -211,7 +217,7 @@ impl Pair {
         let of_basis = if of_basis > f64::EPSILON { 2.0 * of_basis } else { 0.0 };
         let relative = if relative > f64::EPSILON { relative } else { 0.0 };
         of_basis * (self.terms[i] * self.terms[j]).sqrt()
-            + relative * self.given[(i, j)].abs()
+            + relative * self.sizes[(i, j)]
             + absolute * self.given.norm_max()
     }
 }

@@ -20,6 +20,7 @@ mod left_out;
 mod named_rows;
 mod pairing;
 mod preserved;
+mod turned_nodes;
 
 pub use files::{ForeignSuperelement, ReducedFiles, ReducedMatrix};
 pub use foreign::Foreign;

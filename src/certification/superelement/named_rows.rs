@@ -13,7 +13,7 @@ use crate::number::counted;
 impl ForeignSuperelement {
     /// The superelement with its matrices in the order of its basis, and what is to be known of that where they name their rows.
     #[must_use]
-    pub fn in_order_of_basis(mut self, interface: &Interface) -> (Self, Option<String>) {
+    pub(super) fn in_order_of_basis(mut self, interface: &Interface) -> (Self, Option<String>) {
         let Some(dofs) = self.dofs.take() else { return (self, None) };
         let (order, n_named) = order(&dofs, interface);
         [&mut self.stiffness, &mut self.mass].into_iter().for_each(|matrix| matrix.reorder(&order));
@@ -33,7 +33,9 @@ impl ForeignSuperelement {
 impl ReducedMatrix {
     fn reorder(&mut self, order: &[usize]) {
         let r = order.len();
-        self.values = Mat::from_fn(r, r, |i, j| self.values[(order[i], order[j])]);
+        [&mut self.values, &mut self.sizes]
+            .into_iter()
+            .for_each(|matrix| *matrix = Mat::from_fn(r, r, |i, j| matrix[(order[i], order[j])]));
     }
 }
 

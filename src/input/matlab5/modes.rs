@@ -6,7 +6,7 @@ use super::reader::compressed;
 use crate::error::{Error, Result};
 use crate::input::MatrixRole;
 use crate::input::mode_format::{ModeSource, ReadModes};
-use crate::input::mode_matrix::{NUMBER, Order, checked_count, columns_of, refuse_not_finite};
+use crate::input::mode_matrix::{NUMBER, Order, columns_of, refuse_not_finite};
 
 /// The modes in the columns of the matrix that is named, or of the only one.
 ///
@@ -31,7 +31,7 @@ fn columns(source: &ModeSource<'_>, array: &Array, content: &mut Content<'_>) ->
     if rows != n_rows as u64 {
         return Err(Error::ModesRows { path: path.to_owned(), found: rows, n: n_rows });
     }
-    let n_columns = checked_count(path, n_columns, n_rows)?;
+    let n_columns = source.meaning.checked_count(path, n_columns, n_rows)?;
     let claim = source.allowance.claim(path);
     if array.class == Class::Sparse {
         let (compressed, _) = compressed(array, content)?;

@@ -11,7 +11,7 @@ use crate::input::assembled::{Collector, complete};
 use crate::input::file_start::FileStart;
 use crate::input::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
 use crate::input::mode_format::{ModeSource, ReadModes};
-use crate::input::mode_matrix::{NUMBER, checked_count};
+use crate::input::mode_matrix::NUMBER;
 use crate::input::named::chosen;
 use crate::job::Layout;
 use crate::sparse::Declared;
@@ -121,7 +121,7 @@ fn columns<'a, F: Matrices<'a>>(source: &'a ModeSource<'a>, open: fn(&'a Path) -
     if head.n_rows() != n_rows as u64 {
         return Err(Error::ModesRows { path: path.to_owned(), found: head.n_rows(), n: n_rows });
     }
-    let n_columns = checked_count(path, head.columns.unsigned_abs(), n_rows)?;
+    let n_columns = source.meaning.checked_count(path, head.columns.unsigned_abs(), n_rows)?;
     let claim = source.allowance.claim(path);
     // A column takes its memory when it gets its first value: a head may promise any number of them.
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -140,11 +140,7 @@ fn columns<'a, F: Matrices<'a>>(source: &'a ModeSource<'a>, open: fn(&'a Path) -
         columns[column][row as usize] = value;
         Ok(())
     })?;
-    columns.resize_with(n_columns, Vec::new);
-    match columns.iter().position(Vec::is_empty) {
-        Some(mode) => Err(Error::ModesNothing { mode: mode + 1, found: "zero everywhere" }),
-        None => Ok(columns),
-    }
+    source.meaning.completed(columns, [n_rows, n_columns])
 }
 
 fn not_finite(path: &Path, head: &Head, (row, col, value): (u32, u32, f64)) -> Error {

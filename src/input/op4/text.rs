@@ -148,6 +148,21 @@ impl<'a> File<'a> {
         )))
     }
 
+    /// The number in a field of a line. Without a point or an exponent Fortran reads it by the decimals and the scale of its format, and
+    /// other programs as it stands: only what both read alike is known.
+    fn number(&self, at: usize) -> Result<f64> {
+        let field = self.fields.field(self.lines.line(), at);
+        match (real(field), self.fields.real(field)) {
+            (Some(number), Some(of_format)) if number == of_format || number.is_nan() => Ok(number),
+            (Some(number), Some(of_format)) => Err(self.error(&format!(
+                "numbers with a point and an exponent – field {} is {number:e} as it stands, and {of_format:e} as Fortran reads it by the \
+                 format in the head: write both, as in 1.5E+00",
+                at + 1
+            ))),
+            _ => Err(self.error(&format!("a number in field {}", at + 1))),
+        }
+    }
+
     /// Hands the next numbers to `take`, each with its position.
     fn numbers(&mut self, n: u64, mut take: impl FnMut(u64, f64) -> Result<()>) -> Result<()> {
         for position in 0..n {
@@ -158,10 +173,7 @@ impl<'a> File<'a> {
                 }
                 self.refuse_wider(n - position)?;
             }
-            match real(self.fields.field(self.lines.line(), at)) {
-                Some(number) => take(position, number)?,
-                None => return Err(self.error(&format!("a number in field {}", at + 1))),
-            }
+            take(position, self.number(at)?)?;
         }
         Ok(())
     }

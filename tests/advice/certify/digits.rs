@@ -1,6 +1,7 @@
 //! Right results that are written with few digits.
 
 use supel::cli::ExitCode;
+use supel_models::{Material, Model, brick};
 
 use super::{Pairs, bar, certify, document, lowest, of_kind, place_of, verdict};
 use supel_models::transform::rounded as of_digits;
@@ -92,4 +93,60 @@ fn modes_next_to_poor_shapes_have_error_bars() {
     let text = certify(&place, "").expect(ExitCode::CheckFailed).out;
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("the mode that it is has") && text.contains(" Hz ± "), "{text}");
+}
+
+/// A block whose fourteenth mode and the next are a fifth of a per cent apart.
+fn block() -> Model {
+    brick([5, 2, 2], [0.5, 0.12, 0.12], &Material::STEEL_SI)
+}
+
+/// Its first fourteen pairs with shapes of so many digits, made of its modes by `mix`.
+fn mixed(digits: usize, mix: impl Fn(&mut [Vec<f64>])) -> Pairs {
+    let mut pairs = lowest(&block(), 15);
+    mix(&mut pairs.shapes);
+    pairs.hertz[..6].fill(0.0);
+    pairs.hertz.truncate(14);
+    pairs.shapes.truncate(14);
+    pairs.shapes.iter_mut().flatten().for_each(|value| *value = rounded(*value, digits));
+    pairs
+}
+
+/// Turns two shapes into each other by an angle.
+fn turn(shapes: &mut [Vec<f64>], [a, b]: [usize; 2], angle: f64) {
+    let (sin, cos) = angle.sin_cos();
+    for row in 0..shapes[a].len() {
+        let [x, y] = [shapes[a][row], shapes[b][row]];
+        (shapes[a][row], shapes[b][row]) = (cos * x + sin * y, cos * y - sin * x);
+    }
+}
+
+/// Rounding is spread over all modes, and is not taken for much of the nearest one. What is not proved for want of digits is said.
+#[test]
+fn shapes_of_few_digits_next_to_a_close_mode_are_right() {
+    for digits in [3, 4] {
+        let place = place_of(&block(), &mixed(digits, |_| {}));
+        let found = document(&place, "", ExitCode::Done);
+        let verdicts = ["C-01", "M-04"].map(|id| verdict(&found, id));
+        assert_eq!(verdicts, [Some("pass"); 2], "{digits} digits");
+        assert_eq!(of_kind(&found, "inexact").len(), 0, "{digits} digits");
+        let (notes, is_open) = (found["notes"].to_string(), verdict(&found, "M-08") == Some("warn"));
+        let said = format!("the shapes have {digits} digits");
+        assert_eq!(notes.contains(&said) && notes.contains("M-08"), is_open, "{digits} digits: {notes}");
+        assert!(is_open || digits > 3, "{digits} digits");
+    }
+    let found = document(&place_of(&block(), &mixed(17, |_| {})), "--strict", ExitCode::Done);
+    assert!(!found["notes"].to_string().contains("digits"), "{}", found["notes"]);
+}
+
+/// A shape that has much of its neighbour is wrong in four digits as it is in all of them, whether the result has the neighbour or not.
+#[test]
+fn shapes_that_have_much_of_a_neighbour_are_wrong_in_few_digits() {
+    for digits in [4, 17] {
+        let of_next = mixed(digits, |shapes| turn(shapes, [13, 14], 0.3));
+        let found = document(&place_of(&block(), &of_next), "", ExitCode::CheckFailed);
+        assert_eq!(verdict(&found, "M-08"), Some("fail"), "{digits} digits");
+        let of_each_other = mixed(digits, |shapes| turn(shapes, [12, 13], 0.3));
+        let found = document(&place_of(&block(), &of_each_other), "", ExitCode::CheckFailed);
+        assert_eq!(verdict(&found, "M-08"), Some("fail"), "{digits} digits");
+    }
 }

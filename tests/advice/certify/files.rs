@@ -129,34 +129,36 @@ fn shapes_in_single_precision() {
     }
 }
 
+/// A dense matrix of OUTPUT4 as text. A column of zeros is left out.
+fn output4(name: &str, columns: &[Vec<f64>]) -> String {
+    let (n, k) = (columns[0].len(), columns.len());
+    let mut text = format!("{k:8}{n:8}{:8}{:8}{name:<8}1P,3E24.16\n", 2, 2);
+    for (at, column) in columns.iter().enumerate().filter(|(_, column)| column.iter().any(|value| *value != 0.0)) {
+        text += &format!("{:8}{:8}{n:8}\n", at + 1, 1);
+        for line in column.chunks(3) {
+            line.iter().for_each(|value| text += &format!("{:>24}", format!("{value:.16E}")));
+            text += "\n";
+        }
+    }
+    text + &format!("{:8}{:8}{:8}\n{:>24}\n", k + 1, 1, 1, "1.0E0")
+}
+
 /// Modes in the columns of a matrix of OUTPUT4, as a PHG or PHA of Nastran: the only one of its file, or the one that is named.
 #[test]
 fn shapes_in_output4() {
     let pairs = pairs();
     let place = place_of(&bar(), &pairs);
     let expected = answer(&place, &place.text("V.mtx"), ["--hz", &place.text("f.txt")]);
-    let matrix = |name: &str, columns: &[Vec<f64>]| {
-        let (n, k) = (columns[0].len(), columns.len());
-        let mut text = format!("{k:8}{n:8}{:8}{:8}{name:<8}1P,3E24.16\n", 2, 2);
-        for (at, column) in columns.iter().enumerate() {
-            text += &format!("{:8}{:8}{n:8}\n", at + 1, 1);
-            for line in column.chunks(3) {
-                line.iter().for_each(|value| text += &format!("{:>24}", format!("{value:.16E}")));
-                text += "\n";
-            }
-        }
-        text + &format!("{:8}{:8}{:8}\n{:>24}\n", k + 1, 1, 1, "1.0E0")
-    };
-    let shapes = matrix("PHG", &pairs.shapes);
+    let shapes = output4("PHG", &pairs.shapes);
     place.write("one.op4", shapes.as_bytes());
-    place.write("two.op4", (matrix("OTHER", &pairs.shapes[..2]) + &shapes).as_bytes());
+    place.write("two.op4", (output4("OTHER", &pairs.shapes[..2]) + &shapes).as_bytes());
     for name in ["one.op4", "one.op4:PHG", "two.op4:PHG"] {
         assert_eq!(answer(&place, &place.text(name), ["--hz", &place.text("f.txt")]), expected, "{name}");
     }
     let [k, m] = ["K.mtx", "M.mtx"].map(|name| place.text(name));
     let ended = supel(&["certify", &k, &m, &place.text("two.op4")]).expect(ExitCode::InputData);
     assert!(ended.err.contains("E-MATRIX-AMBIGUOUS") && ended.err.contains("OTHER, PHG"), "{}", ended.err);
-    place.write("short.op4", matrix("PHG", &[vec![1.0; 4]]).as_bytes());
+    place.write("short.op4", output4("PHG", &[vec![1.0; 4]]).as_bytes());
     let ended = supel(&["certify", &k, &m, &place.text("short.op4")]).expect(ExitCode::InputData);
     assert!(ended.err.contains("E-MODES-ROWS") && ended.err.contains("4 rows"), "{}", ended.err);
 }
@@ -214,4 +216,51 @@ fn shapes_of_double_numbers() {
     let text = String::from_utf8(place.bytes("V.mtx")).expect("text");
     place.write("double.mtx", text.replacen(" real ", " double ", 1).as_bytes());
     assert_eq!(answer(&place, &place.text("double.mtx"), ["--hz", &place.text("f.txt")]), expected);
+}
+
+/// Frequencies in a column or in a row of the files that shapes are in, next to them or by themselves; zeros are those of rigid-body motion.
+#[test]
+fn frequencies_in_the_files_of_shapes() {
+    let mut pairs = pairs();
+    pairs.hertz[..6].fill(0.0);
+    let place = place_of(&bar(), &pairs);
+    let shapes = place.text("V.mtx");
+    let expected = answer(&place, &shapes, ["--hz", &place.text("f.txt")]);
+    let row: Vec<Vec<f64>> = pairs.hertz.iter().map(|hertz| vec![*hertz]).collect();
+    let column = vec![pairs.hertz.clone()];
+    let k = pairs.hertz.len();
+    let bytes: Vec<u8> = pairs.hertz.iter().flat_map(|value| value.to_le_bytes()).collect();
+    let npy = |shape: &str| {
+        let head = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({shape}), }}\n");
+        let length = u16::try_from(head.len()).expect("short").to_le_bytes();
+        [b"\x93NUMPY\x01\x00".as_slice(), &length, head.as_bytes(), &bytes].concat()
+    };
+    let arrays = [format!("{k},"), format!("{k}, 1"), format!("1, {k}")].map(|shape| npy(&shape));
+    let mut files: Vec<(String, Vec<u8>)> =
+        arrays.iter().enumerate().map(|(at, array)| (format!("f{at}.npy"), array.clone())).collect();
+    let head = [&[b' '; 124][..], &[0, 1, b'I', b'M']].concat();
+    let [of_shapes, f, g] =
+        [("V", &pairs.shapes), ("f", &column), ("g", &row)].map(|(name, of)| matlab_array(name, of));
+    files.push(("se.mat".to_owned(), [&head[..], &of_shapes, &f, &g].concat()));
+    files.push(("f.mat".to_owned(), [&head[..], &g].concat()));
+    let market = |rows: usize, columns: usize, form: &str, lines: String| {
+        let sizes = if form == "array" { format!("{rows} {columns}") } else { format!("{rows} {columns} {}", k - 6) };
+        format!("%%MatrixMarket matrix {form} real general\n{sizes}\n{lines}").into_bytes()
+    };
+    let numbers: String = pairs.hertz.iter().map(|hertz| format!("{hertz:e}\n")).collect();
+    files.push(("row.mtx".to_owned(), market(1, k, "array", numbers)));
+    let entries = (6..k).map(|at| format!("1 {} {:e}\n", at + 1, pairs.hertz[at])).collect();
+    files.push(("entries.mtx".to_owned(), market(1, k, "coordinate", entries)));
+    files.push(("f.op4".to_owned(), output4("FRQ", &row).into_bytes()));
+    files.iter().for_each(|(name, bytes)| place.write(name, bytes));
+    let members = ["se.mat:f", "se.mat:g", "f.op4:FRQ"].map(str::to_owned);
+    let whole = files.into_iter().map(|(name, _)| name).filter(|name| name != "se.mat");
+    for name in whole.chain(members) {
+        assert_eq!(answer(&place, &shapes, ["--hz", &place.text(&name)]), expected, "{name}");
+    }
+    let [k, m] = ["K.mtx", "M.mtx"].map(|name| place.text(name));
+    for (name, code, told) in [("se.mat:V", "E-VALUES-COUNT", "12"), ("se.mat:h", "E-NO-SUCH-MATRIX", "V, f, g")] {
+        let ended = supel(&["certify", &k, &m, &shapes, "--hz", &place.text(name)]).expect(ExitCode::InputData);
+        assert!(ended.err.contains(code) && ended.err.contains(told), "{name}: {}", ended.err);
+    }
 }

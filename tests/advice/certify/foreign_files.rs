@@ -20,11 +20,11 @@ fn answer(place: &Place, [stiffness, mass]: [&str; 2]) -> Value {
 }
 
 /// A coordinate in a file that names its rows: its number, its node and its degree of freedom.
-type Named = (usize, i64, u8);
+pub(super) type Named = (usize, i64, u8);
 
 /// Coordinates of a superelement whose last ones are the interface, in another order than that of its basis: nodes backwards, amplitudes as
 /// scalar points of high numbers behind them.
-fn named(n_modes: usize) -> Vec<Named> {
+pub(super) fn named(n_modes: usize) -> Vec<Named> {
     let model = steel_brick();
     let rows = interface();
     let mut of_interface: Vec<Named> = (0..rows.len())
@@ -69,7 +69,7 @@ fn user_element(foreign: &Foreign, order: &[Named], nodes: Nodes) -> String {
 }
 
 /// `*MATRIX OUTPUT, FORMAT=MATRIX INPUT`: a line for each pair of rows.
-fn labels(matrix: &faer::Mat<f64>, order: &[Named]) -> String {
+pub(super) fn labels(matrix: &faer::Mat<f64>, order: &[Named]) -> String {
     let mut text = String::new();
     for (at, (i, of_i, dof_i)) in order.iter().enumerate() {
         for (j, of_j, dof_j) in &order[..=at] {

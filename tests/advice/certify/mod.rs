@@ -16,6 +16,7 @@ mod refused;
 mod rigid;
 mod strayed;
 mod superelement;
+mod turned;
 
 use faer::Mat;
 use serde_json::Value;

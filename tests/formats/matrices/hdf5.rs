@@ -57,6 +57,15 @@ fn a_triangle_of_binsparse_is_mirrored_for_conversion_too() {
     assert!(matches!(error, Error::Hdf5Orientation { .. }), "{error}");
 }
 
+/// The tables of MSC Nastran, in which matrices follow one another: K and M by their names, as others have them.
+#[test]
+fn small_tables_of_msc_nastran() {
+    let fixtures = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hdf5");
+    let [nastran, exudyn] = ["nastran.h5", "exudyn.hdf5"].map(|name| fixtures.join(name));
+    let [input, reference] = [nastran, exudyn].map(|file| read(&job(&file, &file)).expect("K and M"));
+    assert!(input.stiffness.matrix == reference.stiffness.matrix && input.mass.matrix == reference.mass.matrix);
+}
+
 #[test]
 fn tables_of_msc_nastran() {
     let Some(pairs) = supel_testing::corpus::corpus() else { return };

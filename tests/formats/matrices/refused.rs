@@ -120,6 +120,30 @@ fn numbers_wider_than_their_fields() {
     assert_says(&error, "E-MATRIX-FORMAT", &["line 7", "nothing behind"]);
 }
 
+/// Without a point or an exponent Fortran reads a number by the decimals and the scale of its format, and other programs as it stands. What
+/// both read alike is taken.
+#[test]
+fn numbers_of_output4_that_lack_point_or_exponent() {
+    let content = std::fs::read_to_string(fixture("dense_text.op4")).expect("a fixture");
+    let with = |number: &str| {
+        let mut lines: Vec<String> = content.lines().map(str::to_owned).collect();
+        lines[2].replace_range(..23, &format!("{number:>23}"));
+        lines.join("\n") + "\n"
+    };
+    for number in ["1234E-3", "-7", "1.5"] {
+        let error = error_of("a.op4", with(number));
+        assert_says(&error, "E-MATRIX-FORMAT", &["line 3", "field 1", "as Fortran reads it", number]);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.op4");
+    for number in ["0", "0.", "1.5-3", "15.E-1"] {
+        std::fs::write(&path, with(number)).expect("written");
+        let file = format!("{}:KAA", path.display()).into();
+        let matrix = supel::input::SingleMatrix { file, layout: None, dofs: None };
+        assert!(matrix.read(&supel::input::Allowance::of(None)).is_ok(), "{number}");
+    }
+}
+
 #[test]
 fn harwell_boeing_of_other_kinds() {
     for (letters, words) in
