@@ -67,8 +67,8 @@ pub(super) fn settled(
     }
 }
 
-/// The fit of coordinates that nothing is said against: where roundings of axes are felt in a body that nothing holds, its motions are those
-/// that K lets pass.
+/// The fit of coordinates that nothing is said against: where roundings of axes are felt in a body that nothing holds, and explain what it
+/// feels, its motions are those that K lets pass.
 pub(super) fn with_axes_as_known(motions: &Motions<'_>, doubts: &[Doubt]) -> Result<CoordinateFit> {
     let is_held = |number: usize| doubts.iter().any(|doubt| doubt.body == number && doubt.n_touched > 0);
     let bodies = motions.bodies.iter().enumerate();

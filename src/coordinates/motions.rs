@@ -3,6 +3,7 @@
 use faer::Mat;
 
 use super::axis_digits::forces_of_rounding;
+use super::doubt::FIVE_DIGITS;
 use crate::dense;
 use crate::model::{Frame, Model, Site};
 use crate::sparse::{product, product_and_terms};
@@ -114,14 +115,16 @@ impl<'a> Motions<'a> {
         self.of_axes.as_ref().map_or(0.0, of_translations)
     }
 
-    /// Whether roundings of axes make forces that nothing else does, at some row of a body.
+    /// Whether roundings of axes make forces that nothing else does at some row of a body, and explain those of all its rows, with roundings of
+    /// K and coordinates of five digits.
     pub(super) fn feels_axes(&self, body: &Body) -> bool {
         let Some(of_axes) = &self.of_axes else { return false };
-        let is_felt = |row: &usize| {
-            let own = self.rounding_at(*row) * self.scale_of(*row);
-            (0..6).any(|j| of_axes[(*row, j)] > 0.0 && self.forces[(*row, j)].abs() > own)
-        };
-        body.rows.iter().any(is_felt)
+        let entries = || body.rows.iter().flat_map(|row| (0..6).map(move |j| (*row, j)));
+        let force = |(row, j): (usize, usize)| self.forces[(row, j)].abs();
+        let own = |row: usize| self.rounding_at(row) * self.scale_of(row);
+        let of_coordinates = |(row, j): (usize, usize)| if j < 3 { 0.0 } else { FIVE_DIGITS * self.scale_of(row) };
+        entries().any(|at| of_axes[at] > 0.0 && force(at) > own(at.0))
+            && entries().all(|at| force(at) <= of_axes[at] + own(at.0) + of_coordinates(at))
     }
 
     /// Whether axes of nodes look rounded.

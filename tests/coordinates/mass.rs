@@ -190,7 +190,9 @@ fn on_springs(share: f64, mass: impl Fn(&Model) -> Model) -> Model {
     for (a, b) in whole.groups["XMAX"].iter().zip(&whole.groups["B.XMIN"]) {
         for direction in 0..3 {
             let [i, j] = [*a, *b].map(|label| row(label, direction));
-            [(i, i, stiff), (j, j, stiff), (i, j, -stiff), (j, i, -stiff)].map(|(i, j, k)| stiffness.add(i, j, k));
+            for (i, j, k) in [(i, i, stiff), (j, j, stiff), (i, j, -stiff), (j, i, -stiff)] {
+                stiffness.add(i, j, k);
+            }
         }
     }
     whole.stiffness = stiffness.finish();
