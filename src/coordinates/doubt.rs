@@ -3,16 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::free::FREE_BELOW_NOISE;
-use super::motions::{Body, Motions};
+use super::motions::{Body, FIVE_DIGITS, Motions, SIX_DIGITS};
 use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes};
 use crate::dofs::Direction;
 use crate::model::Finding;
 
-/// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
-pub(super) const SIX_DIGITS: f64 = 1e-6;
-/// Displacement out of place, in units of the size of a body, that coordinates of five digits leave. Of a free body zero modes mend
-/// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
-pub(super) const FIVE_DIGITS: f64 = 2e-5;
 /// Nodes out of place that a message names.
 const SHOWN_NODES: usize = 3;
 /// Share of the rows of a held body that supports may touch before the others are too few to be a witness: rows in an order

@@ -1,9 +1,9 @@
 //! The decision about a doubt: supports, rounded coordinates, or coordinates that belong to another model.
 
-use super::doubt::{Costly, Doubt, FIVE_DIGITS, Place};
+use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
 use super::mended::mended;
-use super::motions::{AXES, Motions};
+use super::motions::{AXES, FIVE_DIGITS, Motions};
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::dofs::Direction;
 use crate::error::{Error, ErrorClass, Result};

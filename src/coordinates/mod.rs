@@ -38,6 +38,7 @@ mod mended;
 mod motions;
 mod nodes;
 mod preload;
+mod rounded_axes;
 mod zeros;
 
 use crate::dofs::Direction;

@@ -2,12 +2,16 @@
 
 use faer::Mat;
 
-use super::axis_digits::forces_of_rounding;
-use super::doubt::FIVE_DIGITS;
+use super::rounded_axes::forces_of_rounding;
 use crate::dense;
 use crate::model::{Frame, Model, Site};
 use crate::sparse::{product, product_and_terms};
 
+/// Displacement, for a body of unit size, that six digits lose: nodes are not told apart below it.
+pub(super) const SIX_DIGITS: f64 = 1e-6;
+/// Displacement out of place, in units of the size of a body, that coordinates of five digits leave. Of a free body zero modes mend
+/// what patches are tied by; of a held one nothing does, and in a thin part little displacement is much stiffness.
+pub(super) const FIVE_DIGITS: f64 = 2e-5;
 /// Names of the axes.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 

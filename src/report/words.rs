@@ -9,7 +9,7 @@ use super::{
 use crate::cache::{Kind, Tally};
 use crate::job::Eigensolver;
 pub(super) use crate::job::boundary_in_words as boundary;
-use crate::number::{self, counted, no_less_than, scientific};
+use crate::number::{self, counted, scientific};
 use crate::partition::{Fit, Frame, HeldSelection};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 use crate::verification::preservation::{Accuracy, AccuracyMeasure, FrequencyPair, LimitSource, Preservation};
@@ -118,7 +118,7 @@ fn accuracy_of(accuracy: &Accuracy) -> (&'static str, String) {
         None => format!("not measured: {at}"),
         Some(0.0) => at.to_owned(),
         Some(error) if error.is_finite() => {
-            format!("off by at most {}: {at}", accuracy.in_words(no_less_than(error, 2)))
+            format!("off by at most {}: {at}", accuracy.at_least_in_words(error))
         }
         Some(_) => format!("not all there: {at}"),
     };

@@ -108,7 +108,7 @@ fn a_lumped_mass_direction_by_direction() {
     let uneven = brick([4, 2, 2], [1.2, 0.55, 0.31], &Material::STEEL_SI);
     for (model, is_a_mass) in [(lumped(), true), (lumped_of(&uneven), false)] {
         let wrong = direction_by_direction(&model);
-        assert_said(&wrong, "M-16");
+        assert_said(&wrong, "W-MASS-DIRECTION, M-16");
         let superelement = assert_failed_as_no_body(&wrong);
         assert_eq!(superelement.metadata().model.mass_properties.is_some(), is_a_mass);
     }

@@ -2,8 +2,11 @@
 
 use serde::Serialize;
 
-use crate::number::{quantity, scientific};
+use crate::number::{no_less_than, quantity, scientific};
 use crate::verification::check::{Check, Limits};
+
+/// A relative error from which on it is told in per cent.
+const SEEN: f64 = 1e-5;
 
 /// The largest error of one kind with its limit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -70,9 +73,15 @@ impl Accuracy {
     pub fn in_words(&self, value: f64) -> String {
         match self.measure {
             AccuracyMeasure::Response => format!("{} dB", quantity(value, 2)),
-            _ if value >= 1e-5 => format!("{} %", quantity(100.0 * value, 2)),
+            _ if value >= SEEN => format!("{} %", quantity(100.0 * value, 2)),
             _ => scientific(value, 1),
         }
+    }
+
+    /// An error of this measure in its unit, rounded up.
+    pub fn at_least_in_words(&self, error: f64) -> String {
+        let digits = if self.measure == AccuracyMeasure::Response || error >= SEEN { 2 } else { 1 };
+        self.in_words(no_less_than(error, digits))
     }
 
     /// M-29 to M-31 and M-34, where the scene sets the limit.
