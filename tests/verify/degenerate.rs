@@ -318,7 +318,7 @@ fn chains_of_near_frequencies_far_above_the_others_are_counted_alike() {
 
 /// A job by its text, reduced and verified in both ways.
 #[track_caller]
-pub fn agree_by_job(model: &Model, of_reduction: &str) -> Place {
+pub(super) fn agree_by_job(model: &Model, of_reduction: &str) -> Place {
     let place = Place::with(model);
     let files = "model = { stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }";
     let job = format!("{files}\nwrite = {{ superelement = \"x.supel\" }}\n{of_reduction}\n");
