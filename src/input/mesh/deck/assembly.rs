@@ -164,7 +164,7 @@ impl Scopes {
             std::array::from_fn(|axis| motion.first().and_then(|numbers| numbers.get(axis)).copied().unwrap_or(0.0));
         let rotation = match motion.get(1).map(Vec::as_slice) {
             None => None,
-            Some(&[_, _, _, _, _, _, angle, ..]) if angle == 0.0 => None,
+            Some(&[_, _, _, _, _, _, 0.0, ..]) => None,
             Some(numbers @ &[a, b, c, d, e, f, angle, ..]) => {
                 if !Off::of_text(&numbers[..6]).tells([d - a, e - b, f - c]) {
                     let found = format!("an axis from {:?} to {:?}, which are one point", [a, b, c], [d, e, f]);
