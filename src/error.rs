@@ -1637,7 +1637,7 @@ pub enum Error {
         /// What the scene says of it.
         of: &'static str,
     },
-    /// The scene has gravity along another direction than the superelement whose matrices are reduced.
+    /// The scene states gravity along another direction than the superelement whose matrices are reduced, or along any.
     #[entry("E-ASSUMED-GRAVITY", Usage, "reduce the full model for this direction of gravity")]
     #[error(
         "scene.gravity has another direction than that of the superelement whose matrices are reduced – found {} – expected ({}, {}, {}) \
