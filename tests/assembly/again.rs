@@ -210,6 +210,17 @@ fn a_ball_joint_stays_one() {
     assert!(!job().contains("mechanisms"), "{}", job());
 }
 
+/// A held part carries a free one: three rotations of that one are left, which leave everything inside the held part at rest.
+#[test]
+fn a_ball_joint_on_a_held_part_stays_one() {
+    for method in ["craig-bampton", "herting"] {
+        let place = lines(&format!("--method {method} --modes 6"));
+        let ball = "--join left.middle.ux=right.middle.ux --join left.middle.uy=right.middle.uy \
+                    --join left.middle.uz=right.middle.uz --fix left.end";
+        assert_eq!(again(&place, ball).n_rigid(), 3, "{method}");
+    }
+}
+
 /// Loads come along under the name of their component, whatever else does not is named.
 #[test]
 fn loads_come_along_and_notes_say_what_does_not() {
