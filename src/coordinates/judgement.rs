@@ -27,6 +27,9 @@ const EVEN: f64 = 100.0;
 /// other nodes or axes moves them by a hundredth or more.
 const THREE_DIGITS: f64 = 2e-3;
 
+/// Motions of a body in a plane.
+const IN_A_PLANE: usize = 3;
+
 /// What is known of all bodies once there is a doubt.
 struct Case<'a> {
     motions: &'a Motions<'a>,
@@ -105,9 +108,10 @@ impl Case<'_> {
         let n_moving: usize = self.free.iter().map(|free| free.n_moving).sum();
         let are_all = zeros.count() >= n_moving;
         // Where supports touch few rows, parts that move against each other on all others are a held chain of links, which nothing but the job
-        // tells from axes that are off beyond these rows.
-        let is_unmeant_chain =
-            || Ok::<_, Error>(self.mechanisms == Mechanisms::Warn && zeros.n_rigid(motions, doubts)? < zeros.count());
+        // tells from axes that are off beyond these rows. Rows along a line have no axes to be off.
+        let have_axes = doubts.iter().all(|doubt| self.free[doubt.body].n_moving >= IN_A_PLANE);
+        let may_be_askew = have_axes && self.mechanisms == Mechanisms::Warn;
+        let is_unmeant_chain = || Ok::<_, Error>(may_be_askew && zeros.n_rigid(motions, doubts)? < zeros.count());
         let is_askew = are_all && (self.are_mostly_touched() || is_unmeant_chain()?);
         // Where supports touch most rows, the others prove too little; where they touch none, there are no supports.
         let is_unexplained = zeros.count() > self.n_explained

@@ -1,20 +1,14 @@
 //! What the checks of a model found that is not an error: remarks and warnings, one sentence each.
 
+use super::finding_words as words;
 use crate::dofs::{AxisDigits, Direction, RoundedAxes, RowNames};
-use crate::number::{counted, quantity};
+use crate::number::counted;
 use crate::sparse::Rounding;
 
 /// Above this share of the largest entry in asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;
 /// Asymmetry relative to the two rows of an entry from which it is a warning: condensed rows have the rounding of stiffer ones.
 const ASYMMETRY_OF_ROWS_WARN: f64 = 1e-9;
-/// Times the median diagonal entry of K above which a row is held or tied by a penalty, whatever it costs: rotations of thick parts in
-/// millimetres and soft joints come to 10⁸ of each other. Smaller ones are named by the digits they take, once there are modes.
-pub(super) const PENALTY: f64 = 1e10;
-
-/// Share of their terms up to which forces may be the rounding of a matrix of six digits and more.
-const LIKE_ROUNDING: f64 = 1e-5;
-
 /// Something the checks found that is not an error.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
@@ -241,60 +235,41 @@ impl std::fmt::Display for Finding {
                 )
             }
             Self::MasslessRows { n_rows } => write!(f, "{} no mass: their frequencies are infinite", counted(*n_rows, "row has", "rows have")),
-            Self::HeldByDiagonal { n_rows } => f.write_str(&held_by_diagonal(*n_rows)),
-            Self::FreeParticles { rows, first } => f.write_str(&free_particles(rows.len(), first)),
+            Self::HeldByDiagonal { n_rows } => f.write_str(&words::held_by_diagonal(*n_rows)),
+            Self::FreeParticles { rows, first } => f.write_str(&words::free_particles(rows.len(), first)),
             Self::MassCouplesOthers { n_apart, n_nodes, at } => {
-                f.write_str(&couples_others([*n_apart, *n_nodes], at))
+                f.write_str(&words::couples_others([*n_apart, *n_nodes], at))
             }
-            Self::Penalties { n_rows, first, ratio } => f.write_str(&stiff_rows(*n_rows, first, *ratio)),
+            Self::Penalties { n_rows, first, ratio } => f.write_str(&words::stiff_rows(*n_rows, first, *ratio)),
             Self::NegativeMassByRounding { n_rows } => {
                 let entries = counted(*n_rows, "diagonal entry of the mass is", "diagonal entries of the mass are");
                 write!(f, "{entries} negative by rounding; zero was put there")
             }
             Self::ConstrainedInterface { interface, node, lacks } => {
-                let lacks: Vec<String> = lacks.iter().map(ToString::to_string).collect();
-                write!(
-                    f,
-                    "node {node} of interface {interface:?} has no {}, as other nodes have: it is held there, and the \
-                     interface does without",
-                    lacks.join(", ")
-                )
+                f.write_str(&words::constrained_interface(interface, *node, lacks))
             }
             Self::CoordinatesUntested { n_touched, n_rows, largest } => {
-                f.write_str(&coordinates_untested(*n_touched, *n_rows, *largest))
+                f.write_str(&words::coordinates_untested(*n_touched, *n_rows, *largest))
             }
-            Self::FrameDigits { file, node, line, decimals } => f.write_str(&frame_digits(file, [*node, *line as i64], *decimals)),
+            Self::FrameDigits { file, node, line, decimals } => f.write_str(&words::frame_digits(file, [*node, *line as i64], *decimals)),
             Self::MotionsUncounted => f.write_str(
                 "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \
                  check that rows and map are in one order",
             ),
-            Self::MassByDirection { n_nodes, at } => f.write_str(&mass_by_direction(*n_nodes, at)),
-            Self::RotationsFree { rotations } => {
-                let rotations: Vec<String> = rotations.iter().map(ToString::to_string).collect();
-                write!(
-                    f,
-                    "model.held_rotations lists {}, which the stiffness lets pass: nothing holds it",
-                    rotations.join(", ")
-                )
-            }
-            Self::OriginFar { interface, origin, ratio } => f.write_str(&origin_far(interface, *origin, *ratio)),
+            Self::MassByDirection { n_nodes, at } => f.write_str(&words::mass_by_direction(*n_nodes, at)),
+            Self::RotationsFree { rotations } => f.write_str(&words::rotations_free(rotations)),
+            Self::OriginFar { interface, origin, ratio } => f.write_str(&words::origin_far(interface, *origin, *ratio)),
             Self::MassFar { interface, centre, distance, loss } => {
-                f.write_str(&mass_far(interface, *centre, [*distance, *loss]))
+                f.write_str(&words::mass_far(interface, *centre, [*distance, *loss]))
             }
             Self::Constrained { n_rows, n_dependent, largest, redundant, empty } => {
-                f.write_str(&constrained([*n_rows, *n_dependent], *largest, redundant, *empty))
+                f.write_str(&words::constrained([*n_rows, *n_dependent], *largest, redundant, *empty))
             }
             Self::ConstraintGround { row, dofs, motion, n_rows } => {
-                f.write_str(&to_ground(*row, dofs, motion, *n_rows))
+                f.write_str(&words::to_ground(*row, dofs, motion, *n_rows))
             }
             Self::ConstraintRounded { row, dofs, motion, n_rows, share } => {
-                let rows = counted(*n_rows, "constraint resists", "constraints resist");
-                write!(
-                    f,
-                    "{rows} rigid-body motion, most of all row {row} ({dofs}) the {motion}, by {share:.0e} of the displacements that it \
-                     compares: its factors or the coordinates have few digits, and the component is held by as much; write them with all \
-                     their digits"
-                )
+                f.write_str(&words::little_resistance((*row, dofs), motion, *n_rows, *share))
             }
             Self::HangingInterface { dof, n_dofs } => {
                 let dofs = counted(*n_dofs, "interface dof has", "interface dofs have");
@@ -302,111 +277,4 @@ impl std::fmt::Display for Finding {
             }
         }
     }
-}
-
-fn constrained([n_rows, n_dependent]: [usize; 2], largest: f64, redundant: &[usize], empty: u64) -> String {
-    /// Constraints that a message names.
-    const SHOWN: usize = 12;
-    let of_dofs = match largest {
-        0.0 => counted(n_dependent, "dof is held at rest", "dofs are held at rest"),
-        _ => {
-            let follow = counted(n_dependent, "dof follows others", "dofs follow others");
-            format!("{follow} by factors of {} at most", quantity(largest, 3))
-        }
-    };
-    let mut text = format!("{}, {of_dofs}", counted(n_rows, "constraint", "constraints"));
-    if !redundant.is_empty() {
-        let rows: Vec<String> = redundant.iter().take(SHOWN).map(ToString::to_string).collect();
-        let more = redundant.len().saturating_sub(SHOWN);
-        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-        text += &format!("; left out because they follow from others: rows {}{more}", rows.join(", "));
-    }
-    if empty > 0 {
-        text += &format!("; {} no terms", counted(empty, "row has", "rows have"));
-    }
-    text
-}
-
-fn to_ground(row: usize, dofs: &str, motion: &str, n_rows: usize) -> String {
-    format!(
-        "{} to the ground, most of all row {row} ({dofs}), which resists the {motion} of the component: the job accepts that",
-        counted(n_rows, "constraint holds the component", "constraints hold the component")
-    )
-}
-
-fn stiff_rows(n_rows: usize, first: &str, ratio: f64) -> String {
-    format!(
-        "{} a stiffness of {PENALTY:.0e} times the median and more, at most {ratio:.0e} times at {first}: penalties that hold or tie \
-         dofs; they take digits from what they touch, leave held dofs out of both matrices",
-        counted(n_rows, "row has", "rows have")
-    )
-}
-
-fn frame_digits(file: &str, [node, line]: [i64; 2], decimals: i32) -> String {
-    format!(
-        "{file}:{line}: the axes of node {node} are given to {decimals} decimals, which leave an angle of up to {:.0e} rad between the rows and \
-         the axes of the model: no frequency depends on it, but what stands along axes at such nodes does; write the axes with all \
-         their digits",
-        10f64.powi(-decimals)
-    )
-}
-
-fn coordinates_untested(n_touched: usize, n_rows: usize, largest: f64) -> String {
-    let rounding = if largest <= LIKE_ROUNDING {
-        format!(
-            "; the forces are {largest:.0e} of their terms at most, as rounding leaves of a K that has fewer digits than its \
-             numbers show: state `stiffness_digits` then"
-        )
-    } else {
-        String::new()
-    };
-    format!(
-        "translations make forces at {n_touched} of {}: supports that touch so many rows leave too few to compare the \
-         coordinates and the dof map with; check that rows and map are in one order{rounding}",
-        counted(n_rows, "row", "rows")
-    )
-}
-
-fn mass_by_direction(n_nodes: usize, at: &str) -> String {
-    format!(
-        "{} another mass in one direction than in another, listed from the first: {at}; check that they have no local frames, which \
-         in a held component look like supports, and that M has its rows in the order of K",
-        counted(n_nodes, "node has", "nodes have")
-    )
-}
-
-fn held_by_diagonal(n_rows: usize) -> String {
-    let rows = counted(n_rows, "row is", "rows are");
-    format!("{rows} held by a diagonal entry of K alone, without mass, as a program writes boundary conditions")
-}
-
-fn free_particles(n_rows: usize, first: &str) -> String {
-    let rows = counted(n_rows, "row has", "rows have");
-    format!("{rows} mass and no stiffness, the first is {first}: free particles")
-}
-
-fn couples_others([n_apart, n_nodes]: [usize; 2], at: &str) -> String {
-    format!(
-        "the mass couples {n_apart} of {n_nodes} nodes with other nodes than the stiffness does, first at {at}: check that the \
-         rows of both matrices are in one order"
-    )
-}
-
-fn origin_far(interface: &str, origin: [f64; 3], ratio: f64) -> String {
-    format!(
-        "the origin ({}) of interface {interface:?} is {} times the size of the part away from its nodes: check its unit; digits are \
-         lost on so long a lever",
-        origin.map(|x| quantity(x, 6)).join(", "),
-        quantity(ratio, 2)
-    )
-}
-
-fn mass_far(interface: &str, centre: [f64; 3], [distance, loss]: [f64; 2]) -> String {
-    format!(
-        "the mass at interface {interface:?} is centred {} away from its node: {} digits of its inertia are lost on that lever; set \
-         origin = [{}] of the interface to keep them",
-        quantity(distance, 4),
-        loss.log10().round(),
-        centre.map(|x| quantity(x, 8)).join(", ")
-    )
 }

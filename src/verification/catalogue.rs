@@ -361,8 +361,9 @@ pub const CATALOGUE: &[Entry] = &[
         "M-20",
         Proof::Measured,
         Recorded::Sometimes,
-        "Frequency response between interface degrees of freedom, the full model solved anew at each sample and compared \
-         with the reduced one: what the simulation will feel, at worst.",
+        "Frequency response between interface degrees of freedom, and of the outputs that the scene names under a force on \
+         each of them, the full model solved anew at each sample and compared with the reduced one: what the simulation \
+         will feel and see, at worst.",
         "Keep more modes; the size–error curve says how many would give which error.",
     ),
     line(
@@ -370,7 +371,7 @@ pub const CATALOGUE: &[Entry] = &[
         Proof::Estimated,
         Recorded::Sometimes,
         "How well the full model's response itself is known at each sample: a bound from what the iteration left over, \
-         relative to the response. A small value says that the difference of M-20 is that of the reduction and not of the \
+         relative to the response; of outputs for the one that errs most. A small value says that the difference of M-20 is that of the reduction and not of the \
          solution it is compared with.",
         "The comparison at the frequency named says little: give more damping in [scene], or a band that ends below it.",
     ),

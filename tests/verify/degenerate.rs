@@ -9,7 +9,7 @@ use supel_models::springs::springs;
 use supel_models::transform::{join, translated};
 use supel_models::{Material, Model, brick};
 
-use crate::place::{Place, supel};
+use crate::place::{Place, assert_close, frequencies_hz, supel};
 
 /// Reduces and verifies in both ways; gives what `verify --job` said.
 #[track_caller]
@@ -393,5 +393,79 @@ fn rubin_where_the_interface_leaves_a_translation_alone_agrees() {
     for (nodes, dofs) in [("[1]", "[\"ux\", \"uy\"]"), ("[1]", "[\"uy\"]"), ("[1, 5, 9]", "[\"uy\"]")] {
         let interface = format!("interface = [{{ name = \"i\", nodes = {nodes}, dofs = {dofs} }}]");
         agree_by_job(&model, &format!("{interface}\nreduction = {{ method = \"rubin\", modes = {{ count = 4 }} }}"));
+    }
+}
+
+/// Two nodes at one place and what joins them, without stiffness about z.
+fn joint_about_z() -> Model {
+    let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
+    for (row, value) in (0u32..).zip([1e6, 1e6, 3e6, 1e3, 1e3, 0.0]) {
+        stiffness.extend([(row, row, value), (row, row + 6, -value), (row + 6, row + 6, value)]);
+    }
+    let masses = [2.0, 2.0, 2.0, 0.01, 0.01, 0.01, 5.0, 5.0, 5.0, 0.02, 0.02, 0.03];
+    mass.extend((0u32..).zip(masses).map(|(row, mass)| (row, row, mass)));
+    Model::node_major(vec![[0.0; 3]; 2], &[0, 1, 2, 3, 4, 5], stiffness, mass)
+}
+
+/// The value and the verdict of a check.
+fn checked(place: &Place, name: &str) -> (f64, String) {
+    let report = place.report("x.report.json");
+    let checks = report["body"]["checks"].as_array().expect("checks").clone();
+    let check = checks.into_iter().find(|check| check["name"] == name).expect("a check");
+    (check["value"].as_f64().expect("a value"), check["verdict"].as_str().expect("a verdict").to_owned())
+}
+
+/// A joint that is free about its axis has rows without stiffness, or with that of a thin shaft alone: what turns there is no force, and
+/// the rounding of rows that rest is none either.
+#[test]
+fn what_is_free_about_an_axis_makes_no_force_there() {
+    let section = Section { area: 1e-4, second_moment_y: 2e-9, second_moment_z: 1e-9, torsion: 3e-9 };
+    let nodes = [[0.0; 3], [0.0, 0.0, 0.5]];
+    let shaft = frame(&nodes, &[[0, 1]], &section, &Material::STEEL_SI, Inertia::Consistent);
+    for (model, end) in [(joint_about_z(), 2), (join(&joint_about_z(), &shaft, &[(2, 1)]), 4)] {
+        let place = Place::with(&model);
+        for method in ["guyan", "herting --modes 3", "craig-bampton --modes 3"] {
+            let rest = format!("--interface a=1 --interface b={end} --method {method}");
+            let said = agree(&place, &place.model_flags(), &rest);
+            assert!(!said.contains("! warn"), "{said}");
+            let (value, verdict) = checked(&place, "rigid-body motion makes no force");
+            // K R is zero to the last bit of what is summed.
+            assert!(value < 1e-15 && verdict == "pass", "{method}, {end}: {value} {verdict}");
+        }
+    }
+}
+
+/// Patches that have all nodes and whose origins were fitted to one point: what rounding left between the two is no length of the body.
+#[test]
+fn patches_about_one_point_but_for_rounding_agree() {
+    let model = brick([1, 2, 2], [0.1, 0.06, 0.05], &Material::STEEL_SI);
+    let place = Place::with(&model);
+    let mut of_one_point = Vec::new();
+    for apart in [0.0, 1e-30, 1e-19, 1e-18, 1e-16] {
+        for method in ["herting", "craig-bampton"] {
+            let patch = |name: &str, group: &str, y: f64| {
+                format!(
+                    "{{ name = \"{name}\", nodes = {:?}, coupling = \"rigid\", origin = [0.05, {y:e}, 0.03] }}",
+                    model.groups[group]
+                )
+            };
+            let text = format!(
+                "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+                 interface = [{}, {}]\n\
+                 reduction = {{ method = \"{method}\", modes = {{ up_to_hz = 1e5 }} }}\n\
+                 write = {{ superelement = \"x.supel\" }}\n",
+                patch("a", "XMIN", 0.0),
+                patch("b", "XMAX", apart)
+            );
+            place.write("job.toml", text.as_bytes());
+            supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+            supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
+            supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
+            let found = frequencies_hz(&place.superelement("x.supel"));
+            match apart {
+                0.0 => of_one_point.push(found),
+                _ => assert_close(&found, &of_one_point[usize::from(method != "herting")], 1e-9),
+            }
+        }
     }
 }
