@@ -27,8 +27,14 @@ pub(super) struct Free {
 }
 
 impl Free {
+    /// Of all bodies, in their order.
+    pub(super) fn of_all(motions: &Motions<'_>) -> Result<Vec<Self>> {
+        let momenta = motions.momenta();
+        motions.bodies.iter().map(|body| Self::of(motions, body, &momenta)).collect()
+    }
+
     /// Of a body; `momenta` are those of [`Motions::momenta`].
-    pub(super) fn of(motions: &Motions<'_>, body: &Body, momenta: &Mat<f64>) -> Result<Self> {
+    fn of(motions: &Motions<'_>, body: &Body, momenta: &Mat<f64>) -> Result<Self> {
         let rows = |a: &Mat<f64>| Mat::from_fn(body.rows.len(), 6, |i, j| a[(body.rows[i], j)]);
         let c = rows(&motions.centred);
         let magnitudes = dense::absolute(c.as_ref());

@@ -49,8 +49,7 @@ pub(super) fn settled(
     doubts: &[Doubt],
     (mechanisms, tied): (Mechanisms, &TiedNodes),
 ) -> Result<CoordinateFit> {
-    let momenta = motions.momenta();
-    let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
+    let free = Free::of_all(motions)?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
     let case = Case { motions, doubts, free, n_explained, mechanisms, tied };
     let whole = whole(motions)?;
@@ -78,8 +77,7 @@ pub(super) fn with_axes_as_known(motions: &Motions<'_>, doubts: &[Doubt]) -> Res
     if !bodies.filter(|(number, _)| !is_held(*number)).any(|(_, body)| motions.feels_axes(body)) {
         return Ok(CoordinateFit::Exact);
     }
-    let momenta = motions.momenta();
-    let free: Vec<Free> = motions.bodies.iter().map(|body| Free::of(motions, body, &momenta)).collect::<Result<_>>()?;
+    let free = Free::of_all(motions)?;
     match Zeros::of(&whole(motions)?) {
         Ok(zeros) => Ok(CoordinateFit::Rounded(mended(motions, &free, &zeros, None)?)),
         Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Exact),

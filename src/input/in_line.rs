@@ -9,7 +9,7 @@ use crate::dofs::{Axes, spanned, unit};
 
 /// Roundings of a coordinate: its own as a double, and those of a sum of four products with a sine or cosine each.
 const ROUNDINGS: f64 = 8.0;
-/// Digits from which a decimal number looks rounded: a field of eight characters has room for six beside a point and a sign.
+/// A decimal number of so many digits and more looks rounded: a field of eight characters has room for six beside a point and a sign.
 const ROUNDED_FROM: u32 = 6;
 /// Sine below which directions may be one in a text of few digits. A larger angle was meant, however short the points are apart.
 const NARROW: f64 = 1e-3;

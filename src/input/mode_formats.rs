@@ -78,7 +78,7 @@ pub(super) const FORMATS: [ModeFormat; 6] = [
 /// One number of each mode in a file of a format that has numbers, in a column or in a row; none where the file is of no such format.
 ///
 /// # Errors
-/// Those of the readers; [`Error::ModesRows`] and [`Error::ModesColumns`] for another size than a column or a row of `n_modes`.
+/// What the readers return; [`Error::ModesRows`] and [`Error::ModesColumns`] for another size than a column or a row of `n_modes`.
 pub(super) fn values_of_modes(path: &Path, n_modes: usize, allowance: &Allowance) -> Result<Option<Vec<f64>>> {
     let (file, member) = split_member(path);
     let start = FileStart::of(&file)?;

@@ -38,7 +38,7 @@ pub fn mode_columns(path: &Path, n_rows: usize, allowance: &Allowance) -> Result
 /// Reads the columns of a file, whatever its numbers mean.
 ///
 /// # Errors
-/// Those of [`mode_columns`].
+/// What [`mode_columns`] returns.
 pub(super) fn columns_of_numbers(
     path: &Path,
     (n_rows, meaning): (usize, Meaning),

@@ -16,7 +16,7 @@ pub struct Weight {
     pub translations: [f64; 3],
     /// UᵀMU of the six unit motions about the origin, 6 × 6, where coordinates are known.
     pub motions: Option<Mat<f64>>,
-    /// The same of each part of several nodes that M couples, where there are several parts: springs carry over no mass.
+    /// UᵀMU of each part of several nodes that M couples, where M leaves several parts uncoupled: springs between them have no mass.
     pub parts: Vec<PartWeight>,
     /// Whether every node has all translations or none, so that no direction lacks mass that others have.
     pub has_whole_nodes: bool,

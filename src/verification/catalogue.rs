@@ -371,8 +371,8 @@ pub const CATALOGUE: &[Entry] = &[
         Proof::Estimated,
         Recorded::Sometimes,
         "How well the full model's response itself is known at each sample: a bound from what the iteration left over, \
-         relative to the response; of outputs for the one that errs most. A small value says that the difference of M-20 is that of the reduction and not of the \
-         solution it is compared with.",
+         relative to the response; of outputs for the one that errs most. A small value says that the difference of M-20 is \
+         that of the reduction and not of the solution it is compared with.",
         "The comparison at the frequency named says little: give more damping in [scene], or a band that ends below it.",
     ),
     line(

@@ -119,7 +119,7 @@ mod tests {
             ("hub", &[1]),
             ("HUB (elements)", &[4, 5]),
             ("Hub (surface)", &[8]),
-            // The same nodes by either spelling.
+            // Both spellings name the same nodes.
             ("Foot", &[2, 3]),
             ("foot", &[2, 3]),
             // Two groups of elements: the file tells them apart itself.

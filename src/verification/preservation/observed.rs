@@ -66,11 +66,9 @@ impl<'p> Outputs<'p> {
         let length = rotation_length(partition);
         let mut rows = Mat::zeros(numbers.len(), basis.ncols());
         for (at, number) in numbers.iter().enumerate() {
-            let Output { row, dof } = partition.outputs[*number];
-            let unit = if dof.direction.is_rotation() { length } else { 1.0 };
-            for (k, t) in partition.transformation.rows[row].entries() {
+            for (k, t) in entries(partition, *number, length) {
                 for j in 0..basis.ncols() {
-                    rows[(at, j)] += unit * t * basis[(k as usize, j)];
+                    rows[(at, j)] += t * basis[(k, j)];
                 }
             }
         }
@@ -79,22 +77,31 @@ impl<'p> Outputs<'p> {
 
     /// A unit force on an output as the internal dofs have it, n_I × 1.
     pub(super) fn on_dofs(partition: &Partition, number: usize) -> Mat<f64> {
-        let Output { row, dof } = partition.outputs[number];
-        let unit = if dof.direction.is_rotation() { rotation_length(partition) } else { 1.0 };
         let mut load = Mat::zeros(partition.n_internal, 1);
-        for (k, t) in partition.transformation.rows[row].entries() {
-            if (k as usize) < partition.n_internal {
-                load[(k as usize, 0)] += unit * t;
-            }
-        }
+        let entries = entries(partition, number, rotation_length(partition));
+        entries.filter(|(k, _)| *k < partition.n_internal).for_each(|(k, t)| load[(k, 0)] += t);
         load
     }
 
-    /// Outputs of the scene on the basis of a reduction.
-    pub(super) fn of_reduction(own: &Evidence<'p>, numbers: &[usize]) -> Self {
-        let n_columns = if numbers.is_empty() { 0 } else { own.basis.n_reduced() };
-        Self::on(own.partition, numbers, panel_of(own.basis, 0..n_columns).as_ref())
+    /// All outputs of the scene on the basis of a reduction.
+    pub(super) fn of_reduction(own: &Evidence<'p>) -> Self {
+        let all: Vec<usize> = (0..own.partition.outputs.len()).collect();
+        let n_columns = if all.is_empty() { 0 } else { own.basis.n_reduced() };
+        Self::on(own.partition, &all, panel_of(own.basis, 0..n_columns).as_ref())
     }
+
+    /// Some of them, by their numbers.
+    pub(super) fn only(&self, numbers: &[usize]) -> Self {
+        let rows = Mat::from_fn(numbers.len(), self.rows.ncols(), |i, j| self.rows[(numbers[i], j)]);
+        Self { partition: self.partition, rows }
+    }
+}
+
+/// The row T_o of an output, a rotation times the length.
+fn entries(partition: &Partition, number: usize, length: f64) -> impl Iterator<Item = (usize, f64)> {
+    let Output { row, dof } = partition.outputs[number];
+    let unit = if dof.direction.is_rotation() { length } else { 1.0 };
+    partition.transformation.rows[row].entries().map(move |(k, t)| (k as usize, unit * t))
 }
 
 /// A matrix of frequency responses: displacement of the row for a unit force on the interface dof of the column. Rows are the interface

@@ -86,7 +86,8 @@ pub(super) fn compared<'a>(
     let spectral =
         |of: &Evidence<'_>| Spectral::of(of.reduction.stiffness.as_ref(), of.reduction.mass.as_ref(), shift(of)?);
     let (reduced, of_outputs) = (spectral(evidence)?, spectral(own)?);
-    let task = Task { evidence, own, reduced: &reduced, of_outputs: &of_outputs, band_hz, eta };
+    let outputs = Outputs::of_reduction(own);
+    let task = Task { evidence, own, reduced: &reduced, of_outputs: &of_outputs, outputs: &outputs, band_hz, eta };
     let (measured, loads) = match extent {
         // Internal loads are those of the space that the response was found in.
         ResponseExtent::WithInternalLoads => {
@@ -102,7 +103,7 @@ pub(super) fn compared<'a>(
     };
     let report = task.report(&measured);
     let Measured { full, uncertainty, .. } = measured;
-    let outputs = Outputs::of_reduction(own, &full.outputs);
+    let outputs = outputs.only(&full.outputs);
     Ok(Compared { report, full: Full { response: full, own, outputs, loads }, uncertainty })
 }
 
@@ -122,6 +123,8 @@ struct Task<'t> {
     reduced: &'t Spectral,
     /// The reduced model whose coordinates the basis has columns for.
     of_outputs: &'t Spectral,
+    /// All outputs on that basis.
+    outputs: &'t Outputs<'t>,
     band_hz: [f64; 2],
     eta: f64,
 }
@@ -255,7 +258,7 @@ impl<'t> Task<'t> {
 
     /// The reduced model, seen there.
     fn reduced_model(&self, outputs: &[usize]) -> Observed<'t> {
-        Observed::new(self.reduced, self.of_outputs, &Outputs::of_reduction(self.own, outputs))
+        Observed::new(self.reduced, self.of_outputs, &self.outputs.only(outputs))
     }
 
     /// √(T_o K_II⁻¹ T_oᵀ / η) of an output. No solve has made the residual of a force on it small, which is the second number of the bound.
