@@ -149,7 +149,7 @@ pub mod verification;
 
 use audit::{Audit, Reference};
 use cost_forecast::{Counting, ExpectedModes, Forecast};
-use error::Result;
+use error::{Error, Result};
 use job::{AcceptJob, Job};
 use line::{Stages, known, prepared, reduced, with_component, with_stages};
 use memory_forecast::Resources;
@@ -186,7 +186,7 @@ pub fn reduce(job: &Job, resources: Resources, observer: &mut dyn Observer) -> R
 /// Says what [`reduce`] is going to do and what it will cost, before its first factorisation.
 ///
 /// # Errors
-/// The errors of [`reduce`] up to its first factorisation; no memory for a count of modes.
+/// The errors of [`reduce`] up to its first factorisation; [`Error::NothingLeft`]; no memory for a count of modes.
 pub fn forecast(job: &Job, resources: Resources, counting: Counting, observer: &mut dyn Observer) -> Result<Forecast> {
     let plan = Plan::of(job);
     let (_, partition) = prepared(&plan, resources, observer)?;
@@ -197,7 +197,8 @@ pub fn forecast(job: &Job, resources: Resources, counting: Counting, observer: &
     observer.stage("count of modes");
     let modes = ExpectedModes::of(&plan, &partition, &analysis, counting)?;
     let text_bytes = input::bytes_of_matrices(plan.job());
-    Ok(Forecast::new(plan, (&partition, &analysis), modes, resources, text_bytes))
+    let forecast = Forecast::new(plan, (&partition, &analysis), modes, resources, text_bytes);
+    if forecast.n_coordinates == 0 { Err(Error::NothingLeft) } else { Ok(forecast) }
 }
 
 /// Checks a superelement that was made earlier: by its own content, and with a job against the full matrices.

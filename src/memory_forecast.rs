@@ -31,11 +31,15 @@ pub(crate) const TOGETHER_UP_TO: usize = 50_000;
 const HALF_BLOCKS_OF_RESPONSE: u64 = 21;
 /// Blocks of n_B columns that such a space takes on, where the interface has few dofs.
 pub(crate) const RESPONSE_BLOCKS: f64 = 6.0;
-/// Columns for each root of n_B that it takes on where there are many: unlike forces share their answers. Measured are 560 columns of 150
-/// dofs and 790 of 294.
+/// Columns for each root of n_B that it takes on where there are some: unlike forces share their answers.
 const COLUMNS_OF_A_ROOT: f64 = 46.0;
-/// Blocks of constraint modes that basis, projection, verification and comparison hold together where they are stored.
-const BLOCKS_OF_STATICS: u64 = 8;
+/// Blocks of n_B columns that it takes on where there are many. It depends on the band: measured are 560 and 677 columns of 150 and 162
+/// dofs, 790 of 294, 1,540 of 306, 1,750 of 426, and 2,930 of 600.
+const BLOCKS_OF_MANY: f64 = 4.2;
+/// Blocks of constraint modes that basis, projection and verification hold together where they are stored, and with the space of the
+/// response: 4.2 to 4.3 and 8 with 180 to 600 interface dofs.
+const BLOCKS_OF_STATICS: u64 = 5;
+const BLOCKS_OF_STATICS_WITH_RESPONSE: u64 = 8;
 /// The program itself, its threads and what it keeps of its files.
 const PROGRAM: u64 = 22 << 20;
 
@@ -228,13 +232,19 @@ impl SearchSize {
         let of_supports = at_once * (ENTRY_BYTES * entries + DOUBLE * n * (5 * self.n_modes + 64));
         let columns = match self.compared.response {
             Response::Compared => {
-                let root = COLUMNS_OF_A_ROOT * (n_b as f64).sqrt();
-                n_b + self.n_modes + (RESPONSE_BLOCKS * n_b as f64).min(root) as u64
+                let many = BLOCKS_OF_MANY * n_b as f64;
+                let taken_on = (RESPONSE_BLOCKS * n_b as f64).min(many.max(COLUMNS_OF_A_ROOT * (n_b as f64).sqrt()));
+                n_b + self.n_modes + n_answers(partition) + taken_on as u64
             }
             Response::LeftOut => 0,
         };
         of_supports.max(DOUBLE * n * HALF_BLOCKS_OF_RESPONSE * columns / 2)
     }
+}
+
+/// Loads, and modes of a file: each has a static answer.
+fn n_answers(partition: &Partition) -> u64 {
+    (partition.loads.count() + partition.expansion.count()) as u64
 }
 
 impl Memory {
@@ -266,18 +276,20 @@ impl Memory {
         let free = partition.free_under(Boundary::MixedInterface);
         let (n_copies, n_free) = free.map_or((n_copies, 0), |free| (n_copies + 1, free.len() as u64));
         // The loads and the inertia forces of the modes of a file, their static answers and their columns of the basis.
-        let of_loads = 3 * (partition.loads.count() + partition.expansion.count()) as u64;
+        let of_loads = 3 * n_answers(partition);
         let n_b = partition.n_interface() as u64;
         let of_statics = match statics {
             Statics::Stored => 2 * n_b,
             Statics::ByFactor | Statics::Condensed | Statics::Carried => n_b.min(PANEL),
         };
         // What a search holds is gone before the reduced model is compared.
-        let of_blocks = match statics {
-            Statics::Stored => BLOCKS_OF_STATICS.saturating_sub(2) * n_b,
-            Statics::ByFactor | Statics::Condensed | Statics::Carried => 0,
+        let of_blocks = match (statics, search.compared.response) {
+            (Statics::Stored, Response::LeftOut) => (BLOCKS_OF_STATICS - 2) * n_b,
+            (Statics::Stored, Response::Compared) => (BLOCKS_OF_STATICS_WITH_RESPONSE - 2) * n_b,
+            (Statics::ByFactor | Statics::Condensed | Statics::Carried, _) => 0,
         };
-        let after = DOUBLE * n * (BLOCKS_OF_MODES * n_modes + of_blocks) + search.of_comparison(partition, entries);
+        let of_blocks = BLOCKS_OF_MODES * (n_modes + n_answers(partition)) + of_blocks;
+        let after = DOUBLE * n * of_blocks + search.of_comparison(partition, entries);
         let vectors = of_loads + n_free + of_statics + refinement;
         let recovery = COPIES
             * (partition.recovered.rows.len() + partition.quantities.rows.len()) as u64

@@ -6,7 +6,7 @@ use super::sizes::Sizes;
 use super::stage::{MODES, Stage, choice_of_modes, stages};
 use crate::error::Warning;
 use crate::factor::Analysis;
-use crate::job::ModeSelection;
+use crate::job::{Boundary, ModeSelection};
 use crate::memory_forecast::{self, Memory, Resources};
 use crate::partition::Partition;
 use crate::plan::{Mass, Plan};
@@ -74,7 +74,7 @@ impl Forecast {
         let n_coordinates = sizes.n_reduced() as usize;
         Self {
             allowed_bytes: resources.allowed(plan.job()),
-            file_bytes: file_bytes(&plan, partition, n_coordinates),
+            file_bytes: file_bytes(&plan, partition, &sizes),
             n_coordinates,
             memory,
             stages,
@@ -103,8 +103,8 @@ fn band(plan: &Plan, modes: ExpectedModes) -> Band {
 }
 
 /// Bytes of the superelement file: full matrices, rows of recovery, and a document.
-fn file_bytes(plan: &Plan, partition: &Partition, n_coordinates: usize) -> u64 {
-    let (r, job) = (n_coordinates as u64, plan.job());
+fn file_bytes(plan: &Plan, partition: &Partition, sizes: &Sizes) -> u64 {
+    let (r, job) = (sizes.n_reduced() as u64, plan.job());
     let n_matrices = match plan.mass() {
         Mass::Reduced => 2,
         Mass::NotAsked => 1,
@@ -115,11 +115,14 @@ fn file_bytes(plan: &Plan, partition: &Partition, n_coordinates: usize) -> u64 {
         Some(supel_runtime::Precision::Double) | None => DOUBLE,
     };
     let n_rigid = plan.facts().map_or(0, |facts| facts.n_rigid) as u64;
-    // Û, its mass, gravity and the answers to loads have a row for each coordinate.
+    // Û, its mass, gravity, and the loads have a row for each coordinate.
     let narrow = 2 * n_rigid + 3 + partition.loads.count() as u64;
     // A row, its node and direction, and the position of its node.
     let rows = partition.recovered.rows.len() as u64;
-    DOUBLE * (n_matrices * r * r + narrow * r + partition.quantities.rows.len() as u64 * r)
+    // What stored modes are of the named ones, unless all are those of the held interface.
+    let is_mixed = sizes.n_answers > 0.0 || sizes.boundary != Boundary::FixedInterface;
+    let n_named = if is_mixed { (sizes.n_modes + sizes.n_answers) as u64 } else { 0 };
+    DOUBLE * (n_matrices * r * r + n_named * n_named + narrow * r + partition.quantities.rows.len() as u64 * r)
         + rows * (of_a_row * r + 3 * DOUBLE)
         + DOCUMENT
         + OF_A_COORDINATE * r

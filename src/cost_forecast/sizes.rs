@@ -63,7 +63,11 @@ impl Sizes {
     /// The sizes of a planned run with so many modes; `text_bytes` are those of its files.
     pub fn of(plan: &Plan, partition: &Partition, analysis: &Analysis, (n_modes, text_bytes): (usize, u64)) -> Self {
         let job = plan.job();
-        let n_relief = plan.facts().map_or(0, |facts| plan.relief().motions(facts.n_rigid, facts.modes_in_file).len());
+        // Without an interface the motions of a free body are coordinates by themselves.
+        let n_relief = plan.facts().map_or(0, |facts| match partition.n_interface() {
+            0 => facts.n_rigid,
+            _ => plan.relief().motions(facts.n_rigid, facts.modes_in_file).len(),
+        });
         let n_residual = partition.loads.facts.iter().filter(|load| load.has_residual_vector).count();
         Self {
             n_answers: (n_relief + n_residual + partition.expansion.count()) as f64,

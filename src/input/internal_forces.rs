@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::allowance::Allowance;
-use super::load_file::{LoadColumn, WantedColumn, load_column};
+use super::load_file::{LoadColumn, WantedColumn, WantedColumns, columns_of_file};
 use crate::dofs::FileRows;
 use crate::error::{Error, Result};
 use crate::job::ModelJob;
@@ -16,9 +16,10 @@ pub(super) fn read_internal_forces(
     digests: &mut BTreeMap<&'static str, String>,
 ) -> Result<Option<LoadColumn>> {
     let Some(path) = &model.internal_forces else { return Ok(None) };
-    let forces = load_column(WantedColumn { path, load: "internal forces", column: None, n_rows }, allowance)?;
-    digests.insert("internal_forces", forces.digest.clone());
-    Ok(Some(forces))
+    let columns = [WantedColumn { load: "internal forces", column: None }];
+    let forces = columns_of_file(WantedColumns { path, columns: &columns, n_rows }, allowance)?.pop();
+    digests.extend(forces.iter().map(|forces| ("internal_forces", forces.digest.clone())));
+    Ok(forces)
 }
 
 /// The internal forces of the rows that are left. Rows without stiffness and mass can have none.

@@ -113,7 +113,7 @@ pub use face_areas::area_vectors;
 pub use facts::{InputFacts, MatrixFacts};
 pub use foreign_modes::{ForeignModes, Orientation, foreign_modes};
 pub use further_matrix::FurtherMatrix;
-pub use load_file::{LoadColumn, WantedColumn, load_column};
+pub use load_file::{LoadColumn, WantedColumn, WantedColumns, columns_of_file};
 pub use map_and_nodes::nodes;
 pub use mesh_input::{MeshInput, VtkCells};
 pub use mode_rounding::ModeRounding;

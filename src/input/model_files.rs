@@ -1,7 +1,7 @@
 //! The files of a finite element model: which there are, what they hold, and whether it fits together.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
 use super::common_rows::{RowLabels, fit_matrices, take_notes};
@@ -10,7 +10,7 @@ use super::format::{MatrixSource, ReadMatrix};
 use super::further_matrix::FurtherMatrix;
 use super::hdf5_format;
 use super::internal_forces::{on_rows, read_internal_forces};
-use super::load_file::{LoadColumn, WantedColumn, load_column};
+use super::load_file::{LoadColumn, WantedColumn, WantedColumns, columns_of_file};
 use super::map_and_nodes::{Digests, MapAndNodes, dof_map_for_labels, map_and_nodes, nodes};
 use super::member::split_member;
 use super::modes_file::{ModeColumns, mode_columns};
@@ -143,18 +143,26 @@ fn refuse_other_superelements(
 /// The columns of the files of loads, one for each load that has a file.
 ///
 /// # Errors
-/// What [`load_column`](super::load_column) refuses; [`Error::LoadKeys`].
+/// What [`columns_of_file`] refuses; [`Error::LoadKeys`].
 pub fn load_columns(loads: &[LoadJob], input: &Input, allowance: &Allowance) -> Result<Vec<Option<LoadColumn>>> {
     let n_rows = input.n_file_rows();
-    let of_load = |load: &LoadJob| match load.pattern()? {
-        LoadPattern::File(path, column) => {
-            let read = load_column(WantedColumn { path, load: &load.name, column, n_rows }, allowance)?;
-            refuse_other(&input.stiffness, "a load", (path, &read.digest))?;
-            Ok(Some(turned(read, input.turning.as_ref())))
+    // Every file once, however many loads it has.
+    let mut files: BTreeMap<&Path, Vec<(usize, WantedColumn<'_>)>> = BTreeMap::new();
+    for (at, load) in loads.iter().enumerate() {
+        if let LoadPattern::File(path, column) = load.pattern()? {
+            files.entry(path).or_default().push((at, WantedColumn { load: &load.name, column }));
         }
-        LoadPattern::Force(..) | LoadPattern::Pressure(..) | LoadPattern::Rotation(_) => Ok(None),
-    };
-    loads.iter().map(of_load).collect()
+    }
+    let mut columns = vec![None; loads.len()];
+    for (path, wanted) in files {
+        let (places, wanted): (Vec<usize>, Vec<WantedColumn<'_>>) = wanted.into_iter().unzip();
+        let read = columns_of_file(WantedColumns { path, columns: &wanted, n_rows }, allowance)?;
+        for (at, column) in places.into_iter().zip(read) {
+            refuse_other(&input.stiffness, "a load", (path, &column.digest))?;
+            columns[at] = Some(turned(column, input.turning.as_ref()));
+        }
+    }
+    Ok(columns)
 }
 
 /// The modes of the file of a job, where it has one.

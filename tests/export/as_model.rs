@@ -193,12 +193,13 @@ fn rows_of_a_superelement_have_names() {
 /// What is read of a superelement counts, whatever it is read for.
 #[test]
 fn all_parts_of_a_superelement_take_memory() {
-    use supel::input::{Allowance, WantedColumn, load_column, nodes};
+    use supel::input::{Allowance, WantedColumn, WantedColumns, columns_of_file, nodes};
     let place = reduced("herting", "");
     let (path, size) = (place.path("x.supel"), place.bytes("x.supel").len() as u64);
-    let wanted = WantedColumn { path: &path, load: "push", column: Some(0), n_rows: 1 };
+    let columns = [WantedColumn { load: "push", column: Some(0) }];
+    let wanted = WantedColumns { path: &path, columns: &columns, n_rows: 1 };
     let too_little = Allowance::of(Some(size / 2));
-    for error in [load_column(wanted, &too_little).map(drop), nodes(&path, &too_little).map(drop)] {
+    for error in [columns_of_file(wanted, &too_little).map(drop), nodes(&path, &too_little).map(drop)] {
         assert_eq!(error.expect_err("too little").code(), "E-MEM-READ");
     }
 }

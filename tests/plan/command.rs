@@ -157,22 +157,41 @@ fn the_machine_is_measured_once() {
     assert!(rates(&["--threads", "1"])["solve_byte"].as_f64().expect("a number") > 0.0);
 }
 
+/// So many loads on so many rows, unlike one another.
+fn array_of_loads(n: usize, n_loads: usize) -> String {
+    let mut random = supel_models::SplitMix64::new(5);
+    let values: String = (0..n * n_loads).map(|_| format!("{:.6}\n", random.normal())).collect();
+    format!("%%MatrixMarket matrix array real general\n{n} {n_loads}\n{values}")
+}
+
 /// The peak of a process of its own is what the plan says, up to the pages that an allocator keeps and how soon the response converges.
 #[test]
 fn the_run_needs_the_memory_that_the_plan_says() {
     let model = supel_models::brick([16, 9, 7], [1.0, 0.31, 0.23], &supel_models::Material::STEEL_SI);
     let many = "method = \"herting\", modes = { count = 60 }";
-    for (reduction, scene) in [(HERTING, ""), (many, "boundaries = []\nband_hz = [0, 9000]")] {
+    let loads: String = (0..100)
+        .map(|column| format!("[[load]]\nname = \"l{column}\"\nfile = \"loads.mtx\"\ncolumn = {column}\n"))
+        .collect();
+    for (reduction, scene, loads) in [
+        (HERTING, "", ""),
+        (many, "boundaries = []\nband_hz = [0, 9000]", ""),
+        (HERTING, "analysis = \"modal\"", &loads),
+    ] {
         let place = Place::with(&model);
-        place.write("job.toml", Case::new(PATCHES, reduction, scene).job().as_bytes());
+        place.write("job.toml", format!("{}{loads}", Case::new(PATCHES, reduction, scene).job()).as_bytes());
+        place.write("loads.mtx", array_of_loads(model.n, 100).as_bytes());
         let answer = |command: &str| -> Value {
             let mut program = Command::cargo_bin("supel").expect("the program");
             let output = program.args([command, &place.text("job.toml"), "--json", "--threads", "2"]).output();
             serde_json::from_slice(&output.expect("it runs").stdout).expect("JSON")
         };
-        let foreseen = answer("plan")["memory"]["peak_bytes"].as_f64().expect("bytes");
-        let found = answer("reduce")["run"]["peak_memory_bytes"].as_f64().expect("bytes");
+        let (plan, run) = (answer("plan"), answer("reduce"));
+        let foreseen = plan["memory"]["peak_bytes"].as_f64().expect("bytes");
+        let found = run["run"]["peak_memory_bytes"].as_f64().expect("bytes");
         assert!((0.75..1.35).contains(&(foreseen / found)), "{scene}: {foreseen} foreseen, {found} found");
+        let foreseen = plan["answer"]["file_bytes"].as_f64().expect("bytes");
+        let found = run["run"]["file_bytes"].as_f64().expect("bytes");
+        assert!((0.85..1.15).contains(&(foreseen / found)), "{scene}: {foreseen} bytes foreseen, {found} written");
     }
 }
 
