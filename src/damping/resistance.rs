@@ -42,9 +42,10 @@ pub fn refuse_resistance(job: &Job, partition: &Partition, rigid: &RigidBodyMode
     let Some((forces, rounding)) = Forces::of_damping(&partition.matrices, &u) else { return Ok(()) };
     // What K leaves tells how well the motions are known, and what its digits are worth.
     let (forces_of_k, terms) = product_and_terms(&partition.stiffness, u.as_ref());
-    let known = Forces { forces: forces_of_k, terms }.worst().0;
-    let limit = (NOISE_FACTOR * known.max(rounding)).clamp(MADE_OF_MODES, LARGEST_ROUNDING);
-    let (share, [dof, motion]) = forces.worst();
+    let known = Known::of(rigid, &u);
+    let left = Forces { forces: forces_of_k, terms }.worst(&known).0;
+    let limit = (NOISE_FACTOR * left.max(rounding)).clamp(MADE_OF_MODES, LARGEST_ROUNDING);
+    let (share, [dof, motion]) = forces.worst(&known);
     if share <= limit {
         return Ok(());
     }
@@ -86,19 +87,43 @@ impl Forces {
     }
 
     /// The largest share of a force in its terms, with the dof and the motion.
-    fn worst(&self) -> (f64, [usize; 2]) {
-        let (mut worst, n_u) = ((0.0, [0, 0]), self.forces.ncols());
-        for motion in 0..n_u {
-            // A dof that hardly takes part has terms of rounding alone.
-            let terms = dense::column(self.terms.as_ref(), motion);
-            let least = f64::EPSILON * terms.iter().fold(0.0f64, |max, term| max.max(*term));
-            for (row, (force, term)) in dense::column(self.forces.as_ref(), motion).iter().zip(terms).enumerate() {
-                let share = if *term > least { force.abs() / term } else { 0.0 };
+    ///
+    /// A dof that hardly takes part in a motion, as one on an axis in the rotation about it, has terms of the noise of the motions alone:
+    /// whatever damps it shows in the motions in which it takes part.
+    fn worst(&self, known: &Known) -> (f64, [usize; 2]) {
+        let terms = self.terms.as_ref();
+        let mut worst = (0.0, [0, 0]);
+        for row in 0..terms.nrows() {
+            let of_unit = |(motion, size): (usize, &f64)| if *size > 0.0 { terms[(row, motion)] / size } else { 0.0 };
+            let largest = known.sizes.iter().enumerate().map(of_unit).fold(0.0, f64::max);
+            for (motion, size) in known.sizes.iter().enumerate() {
+                let term = terms[(row, motion)];
+                let share =
+                    if term > known.noise * largest * size { self.forces[(row, motion)].abs() / term } else { 0.0 };
                 if dense::worse(share, worst.0) {
                     worst = (share, [row, motion]);
                 }
             }
         }
         worst
+    }
+}
+
+/// How large the motions of a body are, and how well they are known relative to that.
+struct Known {
+    sizes: Vec<f64>,
+    noise: f64,
+}
+
+impl Known {
+    fn of(rigid: &RigidBodyModes, u: &Mat<f64>) -> Self {
+        let largest = |j| dense::column(u.as_ref(), j).iter().fold(0.0f64, |max, x| max.max(x.abs()));
+        let own: Vec<f64> = (0..u.ncols()).map(largest).collect();
+        // Positions are rounded relative to the extent, which is that of all rotations: one about a line moves no node of it.
+        let extent = own.iter().copied().fold(0.0, f64::max);
+        let is_rotation = |motion: usize| rigid.is_classical && motion >= MOTIONS.len() / 2;
+        let sizes = own.into_iter().enumerate().map(|(at, size)| if is_rotation(at) { extent } else { size }).collect();
+        let noise = NOISE_FACTOR * rigid.energy.largest_residual.max(f64::EPSILON);
+        Self { sizes, noise: noise.min(LARGEST_ROUNDING) }
     }
 }

@@ -83,6 +83,36 @@ fn dampers_to_the_ground_are_told_from_rounding() {
     assert!(ended.err.contains("E-DAMPING-RIGID"), "{}", ended.err);
 }
 
+/// The rows of a straight beam that lie on its axis but for the rounding of a table take no part in the rotation about it: what damping
+/// forces they have there is that rounding. A damper to the ground shows in the motions in which they take part.
+#[test]
+fn a_rounded_axis_of_a_straight_beam_is_no_damper_to_the_ground() {
+    let line: Vec<[f64; 3]> = (0..4).map(|node| [0.05 * f64::from(node), 0.0, 0.0]).collect();
+    let edges = [[0, 1], [1, 2], [2, 3]];
+    let beam = frame(&line, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    let scaled: Entries = beam.stiffness.iter().map(|(i, j, value)| (*i, *j, 1e-6 * value)).collect();
+    let ends = r#"{ name = "a", nodes = [1] }, { name = "b", nodes = [4] }"#;
+    let damping = "[[matrix]]\nname = \"c\"\nkind = \"damping\"\nfile = \"C.mtx\"\n";
+    for (off, others) in [(1e-17, "E-DAMPING-RIGID"), (1e-15, "E-DAMPING-RIGID"), (1e-9, "M-28")] {
+        let mut model = beam.clone();
+        model.nodes[1][1] = off;
+        let case = Case::new(model);
+        case.matrix("C.mtx", "symmetric", &scaled);
+        let ended = case.run(ends, HERTING, damping);
+        assert_eq!(ended.code, ExitCode::Done, "{off}: {}", ended.err);
+        for row in 6..12 {
+            let grounded: Entries = scaled
+                .iter()
+                .map(|(i, j, value)| (*i, *j, if (*i, *j) == (row, row) { value * 1.001 } else { *value }))
+                .collect();
+            case.matrix("C.mtx", "symmetric", &grounded);
+            let ended = case.run(ends, HERTING, damping);
+            let is_told = ["E-DAMPING-RIGID", others].iter().any(|code| ended.err.contains(code));
+            assert!(is_told, "{off} {row}: {}", ended.err);
+        }
+    }
+}
+
 /// M Φ diag(2ζω) Φᵀ M of the elastic modes of the full model, in double precision: its rows of rigid-body motion hold the errors of the modes.
 #[test]
 fn modal_damping_of_the_full_model_is_no_damper_to_the_ground() {
