@@ -174,10 +174,24 @@ fn joins(command: &AllCommand, rows: &[ComponentRow], budget: Option<u64>) -> Ve
     if command.joins.is_empty() {
         return Vec::new();
     }
-    match joined_parts(rows, budget) {
-        Ok(mut assembly) => command.joins.iter().map(|(a, b)| joined(&mut assembly, (a, b))).collect(),
-        Err(error) => command.joins.iter().map(|(a, b)| JoinRow::refused(a, b, &error)).collect(),
-    }
+    let mut parts = joined_parts(rows, budget);
+    let row = |(a, b): &(String, String)| match (unmade(rows, [a, b]), &mut parts) {
+        (Some(component), _) => JoinRow::not_compared(a, b, component),
+        (None, Ok(assembly)) => joined(assembly, (a, b)),
+        (None, Err(error)) => JoinRow::refused(a, b, error),
+    };
+    command.joins.iter().map(row).collect()
+}
+
+/// The component of one of two interfaces that there is no verified superelement of; none also where an interface names no component.
+fn unmade<'a>(rows: &'a [ComponentRow], interfaces: [&String; 2]) -> Option<&'a str> {
+    let is_of = |row: &ComponentRow, name: &str| name.strip_prefix(&row.name).is_some_and(|rest| rest.starts_with('.'));
+    let components = interfaces.into_iter().filter_map(|name| rows.iter().find(|row| is_of(row, name)));
+    components.map(|row| (row, row.name.as_str())).find(|(row, _)| !is_verified(row)).map(|(_, name)| name)
+}
+
+fn is_verified(row: &ComponentRow) -> bool {
+    row.exit_code == ExitCode::Done as u8 && row.superelement.is_some()
 }
 
 fn joined(assembly: &mut Assembly, (a, b): (&str, &str)) -> JoinRow {
@@ -190,7 +204,7 @@ fn joined(assembly: &mut Assembly, (a, b): (&str, &str)) -> JoinRow {
 /// The components of which there is a verified superelement.
 fn joined_parts(rows: &[ComponentRow], budget: Option<u64>) -> Result<Assembly> {
     let mut components = Vec::new();
-    for row in rows.iter().filter(|row| row.exit_code == ExitCode::Done as u8) {
+    for row in rows.iter().filter(|row| is_verified(row)) {
         let Some(path) = &row.superelement else { continue };
         let read = Superelement::open(path).map_err(|error| Error::of_superelement(path, error))?;
         components.push((row.name.clone(), read));

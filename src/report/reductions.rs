@@ -89,9 +89,11 @@ pub struct JoinRow {
     pub n_dofs: Option<usize>,
     /// The largest distance between the nodes of a pair; none for rows.
     pub distance: Option<f64>,
-    /// Why they do not fit, or were not compared.
+    /// The component without a verified superelement that they were not compared for.
+    pub not_compared: Option<String>,
+    /// Why they do not fit, or could not be compared.
     pub error: Option<ErrorLine>,
-    /// The exit code that follows.
+    /// The exit code that follows; none where they were not compared, which is a matter of the component.
     pub exit_code: u8,
 }
 
@@ -162,13 +164,23 @@ impl JoinRow {
     /// Two that fit.
     pub fn fitting(joint: &Joint) -> Self {
         let Joint { a, b, n_nodes, n_dofs, distance, .. } = joint.clone();
-        Self { a, b, n_nodes: Some(n_nodes), n_dofs: Some(n_dofs), distance, error: None, exit_code: 0 }
+        let (n_nodes, n_dofs) = (Some(n_nodes), Some(n_dofs));
+        Self { n_nodes, n_dofs, distance, ..Self::of(&a, &b) }
+    }
+
+    /// Two of which one is of a component without a verified superelement.
+    pub fn not_compared(a: &str, b: &str, component: &str) -> Self {
+        Self { not_compared: Some(component.to_owned()), ..Self::of(a, b) }
     }
 
     /// Two that do not fit, or could not be compared.
     pub fn refused(a: &str, b: &str, error: &Error) -> Self {
-        let (error, exit_code) = (Some(ErrorLine::of(error)), error.class() as u8);
-        Self { a: a.to_owned(), b: b.to_owned(), n_nodes: None, n_dofs: None, distance: None, error, exit_code }
+        Self { error: Some(ErrorLine::of(error)), exit_code: error.class() as u8, ..Self::of(a, b) }
+    }
+
+    fn of(a: &str, b: &str) -> Self {
+        let [a, b] = [a, b].map(str::to_owned);
+        Self { a, b, n_nodes: None, n_dofs: None, distance: None, not_compared: None, error: None, exit_code: 0 }
     }
 
     /// Why they do not fit, as a line for stderr.
@@ -282,10 +294,13 @@ impl ReductionsReport {
 }
 
 fn of_join(join: &JoinRow) -> String {
-    let JoinRow { a, b, n_nodes, n_dofs, distance, error, .. } = join;
-    match error {
-        Some(error) => format!("✗ {a} = {b}: {}", error.code),
-        None => {
+    let JoinRow { a, b, n_nodes, n_dofs, distance, not_compared, error, .. } = join;
+    match (error, not_compared) {
+        (Some(error), _) => format!("✗ {a} = {b}: {}", error.code),
+        (None, Some(component)) => {
+            format!("– {a} = {b}: not compared, `{}` has no verified superelement", printable(component))
+        }
+        (None, None) => {
             let nodes = counted(n_nodes.unwrap_or(0), "pair of nodes", "pairs of nodes");
             let dofs = counted(n_dofs.unwrap_or(0), "dof", "dofs");
             let apart = distance.map(|distance| format!(" · at most {} apart", quantity(distance, 3)));

@@ -156,6 +156,23 @@ fn interfaces_that_an_assembly_joins_are_compared() {
     assert_eq!(document["joins"][0]["error"]["code"], "E-JOIN-UNITS");
 }
 
+/// A component whose check fails has no superelement to compare: the pair is not at fault, nor the document that joins it.
+#[test]
+fn a_pair_is_not_compared_without_a_superelement() {
+    let place = halves("m-kg-s");
+    place.write("assembly.toml", ASSEMBLY.as_bytes());
+    let job = String::from_utf8(place.bytes("left.toml")).expect("text");
+    place.write("left.toml", format!("{job}expect = {{ mass = 1e9 }}\n").as_bytes());
+    let ended = reduce_all(&place, "assembly.toml", &["--json"]).expect(ExitCode::CheckFailed);
+    let document = answered(&ended);
+    let join = &document["joins"][0];
+    assert_eq!((join["not_compared"].as_str(), join["error"].is_null()), (Some("left"), true), "{join}");
+    let text = reduce_all(&place, "assembly.toml", &[]).expect(ExitCode::CheckFailed);
+    assert!(text.out.contains("not compared, `left` has no verified superelement"), "{}", text.out);
+    assert!(text.out.contains("1 of 2 components not verified") && !text.out.contains("do not fit"), "{}", text.out);
+    assert!(!text.err.contains("E-ASSEMBLY-NAME"), "{}", text.err);
+}
+
 /// Two wheels of one job: it runs once, whichever way its document is named, and both components have what it made.
 #[test]
 fn a_job_of_several_components_is_reduced_once() {
