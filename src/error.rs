@@ -20,7 +20,7 @@ use code::catalogued;
 use words::{
     At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, SOFTER_THAN_DIGITS, STATE_DIGITS,
     STATE_EXACT, Suggested, and_more, at_line, column_words, forecast, groups, kinetic_energy, listed, multipliers,
-    named_matrices, not_text, of_file, place, quoted,
+    named_matrices, not_text, of_file, place, quoted, unloaded_reacts_nothing,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -3285,8 +3285,9 @@ pub enum Error {
         "add interface nodes off the axis named, give them rotations, or reduce by the method `rubin`"
     )]
     #[error(
-        "the interface can react only {rank} of the {}{motion} – expected all – {}{}",
+        "the interface can react only {rank} of the {}{motion} – expected all – {}{}{}",
         counted(*n_rigid, "rigid-body motion", "rigid-body motions"),
+        unloaded_reacts_nothing(unloaded),
         if *has_coordinates { OFF_THE_AXIS } else { ROWS_THAT_MOVE }, if *has_few_digits { FEW_DIGITS } else { "" }
     )]
     InterfaceRank {
@@ -3300,6 +3301,8 @@ pub enum Error {
         has_coordinates: bool,
         /// Whether the stiffness has few digits, which may be all that is wrong.
         has_few_digits: bool,
+        /// Interface dofs that the scene leaves unloaded, which react nothing.
+        unloaded: Vec<String>,
     },
     /// A held component is reduced to no coordinates at all.
     #[entry("E-NOTHING-LEFT", Usage, "ask for modes, or add an interface")]

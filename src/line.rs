@@ -5,7 +5,7 @@ use crate::constraint::{self, Constrained, LooseMotions, constrained};
 use crate::coordinates;
 use crate::cost_forecast::{Comparisons, Foreseen};
 use crate::damping::{Damping, refuse_resistance};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factor::{Analysis, Storage};
 use crate::input::{self, Allowance, InputFacts};
 use crate::job::ModeSelection;
@@ -133,8 +133,23 @@ pub(crate) fn known(
     rigid: &RigidBodyModes,
 ) -> Result<(Option<InterfaceRank>, Plan)> {
     refuse_resistance(plan.job(), partition, rigid)?;
-    let rank = rubin::rank_or_attachment(partition, rigid, plan)?;
+    let rank = rubin::rank_or_attachment(partition, rigid, plan).map_err(|error| naming_unloaded(error, plan))?;
     Ok((rank, plan.knowing(rigid::facts(partition, rigid, rank))))
+}
+
+/// An interface that lacks a motion, with what the scene leaves unloaded of it.
+fn naming_unloaded(error: Error, plan: &Plan) -> Error {
+    match error {
+        Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, has_few_digits, .. } => {
+            let scene = plan.job().scene.as_ref();
+            let parts = scene.iter().flat_map(|scene| scene.unloaded.iter().map(|part| format!("`{}`", part.0)));
+            let others =
+                scene.and_then(|scene| scene.connected.as_ref()).map(|_| "all that is not `connected`".to_owned());
+            let unloaded = parts.chain(others).collect();
+            Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, has_few_digits, unloaded }
+        }
+        error => error,
+    }
 }
 
 /// What the stages up to the projection have made.

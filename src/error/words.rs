@@ -20,6 +20,16 @@ pub(super) const STATE_DIGITS: &str = "if its numbers have fewer digits than the
 pub(super) const FEW_DIGITS: &str =
     ", or say model.stiffness_digits = 17 in the job if the numbers of the stiffness are exact";
 
+/// What the scene takes from an interface that reacts too little.
+pub(super) fn unloaded_reacts_nothing(unloaded: &[String]) -> String {
+    match unloaded {
+        [] => String::new(),
+        some => {
+            format!("by the scene no force acts on {}, which reacts nothing; take that out of it, or ", some.join(", "))
+        }
+    }
+}
+
 /// Where few digits of K hide what is softer than their rounding.
 pub(super) const SOFTER_THAN_DIGITS: &str = "; what is softer than the rounding of few digits of the stiffness cannot be \
     told from free: write it with more";

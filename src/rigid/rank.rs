@@ -98,7 +98,8 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
             );
         }
         let (has_coordinates, has_few_digits) = (partition.sites().is_some(), partition.has_few_digits());
-        return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion, has_coordinates, has_few_digits });
+        let unloaded = Vec::new();
+        return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion, has_coordinates, has_few_digits, unloaded });
     }
     Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
 }
