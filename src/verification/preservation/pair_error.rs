@@ -99,6 +99,27 @@ pub(super) fn worst_dip([full, reduced]: [[&Response; 2]; 2]) -> Dip {
     Dip { place: at, decibel: decibel(worst) }
 }
 
+/// By how much the responses of each output differ at most where chords of theirs pass by zero between two frequencies, in the order of rows.
+pub(super) fn output_dips([full, reduced]: [[&Response; 2]; 2]) -> Vec<f64> {
+    let (n, n_rows) = (full[0].n(), full[0].n_rows());
+    let of_output = |i: usize| {
+        let mut worst = 0.0;
+        for j in 0..n {
+            let floor = UNCOUPLED * full[0].farthest(j).max(full[1].farthest(j));
+            let chords = [full, reduced].map(|ends| ends.map(|response| response.get(i, j)));
+            for place in chords.into_iter().filter_map(nearest_to_zero) {
+                let on = |[a, b]: [c64; 2]| a + (b - a) * place;
+                let excess = excess(on(chords[0]), on(chords[1]), floor);
+                if dense::worse(excess, worst) {
+                    worst = excess;
+                }
+            }
+        }
+        worst
+    };
+    (n..n_rows).map(of_output).collect()
+}
+
 /// The place on a chord, between 0 and 1, that is nearest to zero; none where that is one of its ends.
 fn nearest_to_zero([a, b]: [c64; 2]) -> Option<f64> {
     let way = b - a;

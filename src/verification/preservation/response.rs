@@ -1,6 +1,6 @@
 //! Frequency response of the reduced against the full model, pair by pair of interface dofs and at the outputs of the scene: M-20, M-21.
 //!
-//! Of many outputs those that err most at the samples are followed between them; at the samples all are looked at.
+//! Of many outputs those that err most are followed between the samples, by a scan of all that shows antiresonances by their chords.
 
 use faer::MatRef;
 use rayon::prelude::*;
@@ -14,7 +14,7 @@ use super::internal_loads::FullLoads;
 use super::leading::leading;
 use super::observed::{Observed, Outputs, Response};
 use super::outcome::ResponseComparison;
-use super::pair_error::{PairError, output_errors};
+use super::pair_error::PairError;
 use super::policy::ResponseExtent;
 use super::samples;
 use super::scan::{Scan, highest};
@@ -232,19 +232,15 @@ impl<'t> Task<'t> {
         (response, worst)
     }
 
-    /// The outputs that err most at samples, by their numbers.
+    /// The outputs that err most, by their numbers.
     fn followed(&self, full: &dyn FullModel, samples_hz: &[f64]) -> Vec<usize> {
         let all: Vec<usize> = (0..self.own.partition.outputs.len()).collect();
         if all.len() <= FOLLOWED {
             return all;
         }
         let [known, cut_down] = [self.known_model(full, &all), self.reduced_model(&all)];
-        let of = |model: &Observed<'_>, hz: f64| Response::of(model, self.evidence, hz, self.eta);
-        let errors = |hz: &f64| output_errors(&of(&known, *hz), &of(&cut_down, *hz));
-        let larger = |a: Vec<f64>, b: Vec<f64>| {
-            a.into_iter().zip(b).map(|(a, b)| if dense::worse(b, a) { b } else { a }).collect()
-        };
-        let worst = samples_hz.par_iter().map(errors).reduce(|| vec![0.0; all.len()], larger);
+        let scan = Scan { evidence: self.evidence, full: &known, reduced: &cut_down, eta: self.eta };
+        let worst = scan.of_outputs(samples_hz);
         let mut most = highest(all.into_iter(), &|at| worst[at], FOLLOWED);
         most.sort_unstable();
         most

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
 use super::observed::{Observed, Response};
-use super::pair_error::{Dip, worst_dip, worst_pair};
+use super::pair_error::{Dip, output_dips, output_errors, worst_dip, worst_pair};
 use crate::dense;
 
 /// Steps in the width η f of a resonance or antiresonance. Half a step from its top the response is 1/√(1 + 1/16) of the peak: 0.3 dB.
@@ -82,6 +82,32 @@ impl Scan<'_> {
         found.truncate(MAX_PEAKS);
         let largest_db = found.iter().fold(0.0, |worst, top| if dense::worse(top.1, worst) { top.1 } else { worst });
         Scanned { peaks_hz: found.into_iter().map(|top| top.0).collect(), largest_db, step }
+    }
+
+    /// By how much each output differs at most, at samples, at points between the first and the last, and where chords between these pass by
+    /// zero.
+    pub(super) fn of_outputs(&self, samples_hz: &[f64]) -> Vec<f64> {
+        let (low, high) = (samples_hz[0], samples_hz[samples_hz.len() - 1]);
+        let decades = (high / low).ln();
+        let n_steps = self.n_steps(decades);
+        let at = |i: usize| if i == n_steps { high } else { low * (decades / n_steps as f64 * i as f64).exp() };
+        let starts: Vec<usize> = (0..n_steps).step_by(RUN).collect();
+        let run = |start: &usize| {
+            let mut before = self.point(at(*start));
+            let mut worst = output_errors(&before.full, &before.reduced);
+            for i in start + 1..=(start + RUN).min(n_steps) {
+                let next = self.point(at(i));
+                worst = larger(worst, output_errors(&next.full, &next.reduced));
+                worst = larger(worst, output_dips([[&before.full, &next.full], [&before.reduced, &next.reduced]]));
+                before = next;
+            }
+            worst
+        };
+        let at_sample = |hz: &f64| {
+            let point = self.point(*hz);
+            output_errors(&point.full, &point.reduced)
+        };
+        starts.par_iter().map(run).chain(samples_hz.par_iter().map(at_sample)).reduce(Vec::new, larger)
     }
 
     /// The error at every point, and the worst dip of every interval between two.
@@ -190,6 +216,15 @@ impl Point {
 
     fn dip_to(&self, next: &Self) -> Dip {
         worst_dip([[&self.full, &next.full], [&self.reduced, &next.reduced]])
+    }
+}
+
+/// The larger of two numbers each, or those of the one list that there is.
+fn larger(a: Vec<f64>, b: Vec<f64>) -> Vec<f64> {
+    match (a.is_empty(), b.is_empty()) {
+        (true, _) => b,
+        (_, true) => a,
+        (false, false) => a.into_iter().zip(b).map(|(a, b)| if dense::worse(b, a) { b } else { a }).collect(),
     }
 }
 
