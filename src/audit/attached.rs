@@ -180,7 +180,8 @@ fn answered(content: &Content<'_>, amplitudes: MatRef<'_, f64>) -> Option<Check>
 /// A dense decomposition that does not converge.
 fn needed(content: &Content<'_>) -> Result<Check> {
     let rows: Vec<usize> = (0..content.n_b).collect();
-    let n_free = n_moving_less(ILL_CONDITIONED, content.u.as_ref().subrows(0, content.n_b), &content.scale, &rows)?;
+    // Where supports leave one motion alone and it leaves the interface at rest, rounding is all that the interface has of it.
+    let n_free = n_moving_less(ILL_CONDITIONED, content.u.as_ref(), &content.scale, &rows)?;
     let flaws = if n_free == 0 { vec!["the interface carries every rigid-body motion".to_owned()] } else { Vec::new() };
     let equation = "1 where rigid-body modes are coordinates and the interface leaves none of them free, else 0";
     Ok(flaw("rigid-body coordinates are needed", equation, &flaws))

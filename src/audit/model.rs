@@ -129,9 +129,10 @@ impl<'a> Reference<'a> {
                 (asked, columns)
             }
             asked => {
-                let (all, source) = match motions.has_unit() {
-                    true => (given.modes.as_ref(), RigidSource::Geometric),
-                    false => (zero.orthonormal.as_ref(), RigidSource::Algebraic),
+                let (all, source) = match (motions.has_unit(), motions.is_relief_of_given()) {
+                    (true, _) => (given.modes.as_ref(), RigidSource::Geometric),
+                    (false, true) => (given.modes.as_ref(), RigidSource::Algebraic),
+                    (false, false) => (zero.orthonormal.as_ref(), RigidSource::Algebraic),
                 };
                 let mass = plan.mass();
                 let whole = Motions { carried: &given, relieved: all, numbers: &[], source, mass };
@@ -262,7 +263,8 @@ impl<'a> Reference<'a> {
             }
             Some(kept) => {
                 let is_modal = file.n_b == 0 && self.motions.n_zero > 0;
-                let relief = (!self.motions.has_unit() && file.n_b > 0).then(|| self.motions.combination(file).0);
+                let relief =
+                    (!self.motions.is_relief_of_given() && file.n_b > 0).then(|| self.motions.combination(file).0);
                 let mixing = file.mixing.as_ref().filter(|_| !is_modal).map(Mat::as_ref);
                 let freedom = Freedom { kept: &kept, groups: &self.asked.groups, relief, mixing };
                 combination(file, projected, &freedom).unwrap_or_else(|| {

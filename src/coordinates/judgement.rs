@@ -2,13 +2,13 @@
 
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
-use super::mended::mended;
-use super::motions::{AXES, FIVE_DIGITS, Motions};
+use super::mended::{Mended, apart, mended};
+use super::motions::{AXES, FIVE_DIGITS, Motions, SIX_DIGITS};
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::dofs::Direction;
 use crate::error::{Error, ErrorClass, Result};
 use crate::job::Mechanisms;
-use crate::model::{CoordinateFit, Misfit};
+use crate::model::{CoordinateFit, Misfit, RoundedCoordinates};
 use crate::number::quantity;
 use crate::partition::TiedNodes;
 use supel_runtime::MOTIONS;
@@ -79,7 +79,7 @@ pub(super) fn with_axes_as_known(motions: &Motions<'_>, doubts: &[Doubt]) -> Res
     }
     let free = Free::of_all(motions)?;
     match Zeros::of(&whole(motions)?) {
-        Ok(zeros) => Ok(CoordinateFit::Rounded(mended(motions, &free, &zeros, None)?)),
+        Ok(zeros) => Ok(CoordinateFit::Rounded(mended(motions, &free, &zeros, (None, &|_| false))?.coordinates)),
         Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Exact),
         Err(error) => Err(error),
     }
@@ -119,6 +119,10 @@ impl Case<'_> {
                 || n_touched == 0
                 || zeros.n_rigid(motions, doubts)? > self.n_explained);
         if !is_unexplained {
+            // As many motions as those of all bodies and no other.
+            if zeros.count() == n_moving && n_moving > self.n_explained && may_be_askew {
+                self.refuse_apart(zeros)?;
+            }
             return Ok(CoordinateFit::Exact);
         }
         zeros.refuse_uncounted()?;
@@ -133,6 +137,24 @@ impl Case<'_> {
                 ", unless it is held there and hinges let the rest move, which `model.mechanisms = \"accept\"` says";
         }
         Err(error)
+    }
+
+    /// Where nothing holds the bodies, all six motions of each are there, and rows that feel translations are along other axes than the map
+    /// says. Springs to the ground that are nothing next to the stiffness leave the motions as they are.
+    fn refuse_apart(&self, zeros: &Zeros) -> Result<()> {
+        zeros.refuse_uncounted()?;
+        let (energy, worst) = apart(self.motions, &self.free, zeros)?;
+        let expected = SIX_DIGITS.max(zeros.turn);
+        if energy <= expected {
+            return Ok(());
+        }
+        let dof = self.motions.name_of(worst);
+        let found = format!(
+            "nothing holds the body, and in motions that cost nothing rows move otherwise than their coordinates and axes say by up to {} of its \
+             size, the worst at {dof}",
+            quantity(energy, 2)
+        );
+        Err(Error::CoordinatesDoNotFit { found, energy, expected, dof })
     }
 
     /// Whether supports touch most rows of the bodies in doubt.
@@ -165,7 +187,9 @@ impl Case<'_> {
                 self.supports(zeros)?;
             }
             let misfit = Misfit { rotation: AXES[rotations[0] % 3], energy: cost.energy, of: cost.of, at };
-            return Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, Some(misfit))?));
+            let is_tied = |row: usize| self.is_tied(row);
+            let mended = mended(motions, &self.free, zeros, (Some(misfit), &is_tied))?;
+            return self.in_place(mended).map(CoordinateFit::Rounded);
         }
         let is_free = worst.costly.iter().any(|costly| costly.is_free);
         if is_free && zeros.count() <= self.n_explained {
@@ -179,11 +203,29 @@ impl Case<'_> {
         Err(self.misfit(zeros, &rotations, Cost { expected, ..cost }, at))
     }
 
+    /// Whether a row is of a node that a patch ties.
+    fn is_tied(&self, row: usize) -> bool {
+        let dof = self.motions.model.dofs.as_ref().and_then(|dofs| dofs[row]);
+        dof.is_some_and(|dof| self.tied.contains(dof.node))
+    }
+
+    /// What is mended of free bodies, where no node was farther out of place than coordinates of three digits leave it.
+    fn in_place(&self, Mended { coordinates, out_of_place, worst }: Mended) -> Result<RoundedCoordinates> {
+        if out_of_place <= THREE_DIGITS {
+            return Ok(coordinates);
+        }
+        let dof = self.motions.name_of(worst);
+        let found = format!(
+            "nodes are out of place by up to {} of the size of the body, the worst at {dof}",
+            quantity(out_of_place, 2)
+        );
+        Err(Error::CoordinatesDoNotFit { found, energy: out_of_place, expected: THREE_DIGITS, dof })
+    }
+
     /// Of a held body nothing mends the coordinates that tie nodes to a patch, and of other nodes no rounding moves so many so far.
     fn refuse_out_of_place(&self, doubt: &Doubt, rotations: &[usize]) -> Result<()> {
         let motions = self.motions;
-        let dof = |row: &usize| motions.model.dofs.as_ref().and_then(|dofs| dofs[*row]);
-        let is_tied = |row: &usize| dof(row).is_some_and(|dof| self.tied.contains(dof.node));
+        let is_tied = |row: &usize| self.is_tied(*row);
         let witnesses = &doubt.costly[0].witnesses;
         let tied: Vec<usize> = witnesses.iter().copied().filter(is_tied).collect();
         let n_tied = motions.bodies[doubt.body].rows.iter().filter(|row| is_tied(row)).count();

@@ -14,6 +14,8 @@ use crate::sparse::product_and_terms;
 const DIFFERENT: f64 = 1e-6;
 /// Units of the last digit of M that a sum of its entries may be off by.
 const DIGITS: f64 = 100.0;
+/// Turns of a block from both sides, about two axes each, of twice what components of an axis are off by.
+const AXES_TURN: f64 = 8.0;
 /// Nodes that a message names.
 const SHOWN_NODES: usize = 3;
 
@@ -31,12 +33,15 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes) -> Option<Findi
             false => rows_of[nodes.of(*row)][direction.axis()] = *row,
         }
     }
+    // Axes that are off by so much turn a block from both sides, each axis by twice that.
+    let axes = motions.model.axes.iter().flat_map(|axes| axes.of_node.values());
+    let of_axes = AXES_TURN * axes.fold(0.0, |max: f64, digits| max.max(digits.off()));
     let is_turned = |rows: &[usize; 3]| {
         let size = (0..9).fold(0.0f64, |max, k| max.max(terms[(rows[k / 3], k % 3)]));
         let mass = momenta[(rows[0], 0)];
         let expected = |k: usize| if k / 3 == k % 3 { mass } else { 0.0 };
         let digits = (0..9).fold(0.0f64, |max, k| max.max(of_digits[(rows[k / 3], k % 3)]));
-        let rounding = (DIFFERENT * size).max(DIGITS * digits);
+        let rounding = (DIFFERENT.max(of_axes) * size).max(DIGITS * digits);
         (0..9).any(|k| (momenta[(rows[k / 3], k % 3)] - expected(k)).abs() > rounding)
     };
     // The consistent mass of a beam or shell is another along it than across, and its part at a removed node is missing.

@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::free::Free;
-use super::motions::Motions;
+use super::motions::{Body, Motions, SIX_DIGITS};
 use super::nodes::FIRST_ROTATION;
 use super::zeros::Zeros;
 use crate::dense;
@@ -14,20 +14,102 @@ use crate::model::{Frame, Misfit, RoundedCoordinates, recentred};
 /// rounding: coordinates that are off by a tenth of the body are not rounded.
 const SAME_MOTION: f64 = 0.99;
 
+/// What is mended.
+pub(super) struct Mended {
+    /// The motions C′ of every row about the centre of all.
+    pub(super) coordinates: RoundedCoordinates,
+    /// How far the worst node is out of place, in units of the size of its body, when the body is laid on its place as a whole.
+    pub(super) out_of_place: f64,
+    /// Its row.
+    pub(super) worst: usize,
+}
+
 /// The motions C′ with C′X = Z W, where Q P = C X are the combinations of the coordinates' motions and Z W those of the zero
-/// modes that are nearest to each other.
+/// modes that are nearest to each other: on the rows of `interface` as far as these tell, in the mass of all otherwise. An interface node
+/// is where the coordinates have it, whatever part is out of place.
 pub(super) fn mended(
     motions: &Motions<'_>,
     free: &[Free],
     zeros: &Zeros,
-    misfit: Option<Misfit>,
-) -> Result<RoundedCoordinates> {
+    (misfit, interface): (Option<Misfit>, &dyn Fn(usize) -> bool),
+) -> Result<Mended> {
     // Translations do not depend on coordinates: C′X = Z W is met by the rotations alone. On axes they depend as rotations do.
     let first = if motions.has_rounded_axes() { 0 } else { FIRST_ROTATION };
     let every: Vec<usize> = (0..motions.sites.len()).collect();
     let centre = Frame::of(motions.sites, &every).centre;
     let mut mended = motions.centred.clone();
+    let mut worst = (0.0, 0);
     for (body, free) in motions.bodies.iter().zip(free) {
+        let nearest = Nearest::of(motions, body, free, zeros)?;
+        let back = right_inverse(nearest.combined.as_ref().subrows(first, 6 - first))?;
+        let change = |w: &Mat<f64>| dense::product(nearest.gap(w).as_ref(), back.as_ref());
+        let pinned = nearest.on(interface)?;
+        let pinned = change(&pinned);
+        let laid = change(&nearest.on(&|_| true)?);
+        for (i, row) in body.rows.iter().enumerate() {
+            (first..6).for_each(|j| mended[(*row, j)] += pinned[(i, j - first)]);
+            let off = if is_displacement(motions, *row) {
+                (0..6 - first).map(|j| laid[(i, j)].abs()).fold(0.0, f64::max)
+            } else {
+                0.0
+            };
+            if dense::worse(off, worst.0) {
+                worst = (off, *row);
+            }
+        }
+        for row in &body.rows {
+            let scaled = std::array::from_fn(|j| mended[(*row, j)] * if j < 3 { 1.0 } else { body.frame.size });
+            let about = recentred(scaled, body.frame.centre, centre);
+            about.into_iter().enumerate().for_each(|(j, value)| mended[(*row, j)] = value);
+        }
+    }
+    let coordinates = RoundedCoordinates { misfit, centre, motions: mended };
+    Ok(Mended { coordinates, out_of_place: worst.0, worst: worst.1 })
+}
+
+/// How far the zero modes move the worst row otherwise than the six motions do that they are nearest to, in units of the size of its body, and
+/// that row. A row that no zero mode moves is none.
+pub(super) fn apart(motions: &Motions<'_>, free: &[Free], zeros: &Zeros) -> Result<(f64, usize)> {
+    let mut worst = (0.0, 0);
+    for (body, free) in motions.bodies.iter().zip(free) {
+        let nearest = Nearest::of(motions, body, free, zeros)?;
+        let back = right_inverse(nearest.combined.as_ref())?;
+        let apart = dense::product(nearest.gap(&nearest.on(&|_| true)?).as_ref(), back.as_ref());
+        for place in &nearest.displacements {
+            let row = body.rows[*place];
+            let largest = |of: &dyn Fn(usize) -> f64| (0..apart.ncols()).map(|j| of(j).abs()).fold(0.0, f64::max);
+            let off = largest(&|j| apart[(*place, j)]);
+            // What a support holds stays behind.
+            let is_at_rest = largest(&|j| motions.centred[(row, j)] + apart[(*place, j)]) <= SIX_DIGITS;
+            if !is_at_rest && dense::worse(off, worst.0) {
+                worst = (off, row);
+            }
+        }
+    }
+    Ok(worst)
+}
+
+fn is_displacement(motions: &Motions<'_>, row: usize) -> bool {
+    motions.sites[row].is_some_and(|site| !site.direction.is_rotation())
+}
+
+/// The combinations of a body's motions and of the zero modes that are nearest in the mass of all.
+struct Nearest<'a> {
+    rows: &'a [usize],
+    /// Which of them are displacements, by their place.
+    displacements: Vec<usize>,
+    /// Z on the rows.
+    zeros: Mat<f64>,
+    /// W.
+    weights: Mat<f64>,
+    /// X, of six.
+    combined: Mat<f64>,
+    /// C X on the rows.
+    by_coordinates: Mat<f64>,
+}
+
+impl<'a> Nearest<'a> {
+    fn of(motions: &Motions<'_>, body: &'a Body, free: &Free, zeros: &Zeros) -> Result<Self> {
         let rows = |a: &Mat<f64>| Mat::from_fn(body.rows.len(), a.ncols(), |i, j| a[(body.rows[i], j)]);
         let (c, z) = (rows(&motions.centred), rows(&zeros.shapes));
         let q = dense::product(c.as_ref(), free.orthonormal.as_ref());
@@ -41,22 +123,48 @@ pub(super) fn mended(
         for (k, number) in same.iter().enumerate() {
             w.as_mut().col_mut(k).iter_mut().for_each(|value| *value /= squares[*number].sqrt());
         }
-        let mut change = dense::product(z.as_ref(), w.as_ref());
-        dense::add_product(change.as_mut(), -1.0, q.as_ref(), p.as_ref());
-        let x = dense::product(free.orthonormal.as_ref(), p.as_ref());
-        let change = dense::product(change.as_ref(), right_inverse(x.as_ref().subrows(first, 6 - first))?.as_ref());
-        for (i, row) in body.rows.iter().enumerate() {
-            (first..6).for_each(|j| mended[(*row, j)] += change[(i, j - first)]);
-        }
-        for row in &body.rows {
-            let scaled = std::array::from_fn(|j| mended[(*row, j)] * if j < 3 { 1.0 } else { body.frame.size });
-            let about = recentred(scaled, body.frame.centre, centre);
-            about.into_iter().enumerate().for_each(|(j, value)| mended[(*row, j)] = value);
-        }
+        let combined = dense::product(free.orthonormal.as_ref(), p.as_ref());
+        let by_coordinates = dense::product(q.as_ref(), p.as_ref());
+        let displacements = (0..body.rows.len()).filter(|i| is_displacement(motions, body.rows[*i])).collect();
+        Ok(Self { rows: &body.rows, displacements, zeros: z, weights: w, combined, by_coordinates })
     }
-    Ok(RoundedCoordinates { misfit, centre, motions: mended })
+
+    /// Z W − C X.
+    fn gap(&self, weights: &Mat<f64>) -> Mat<f64> {
+        dense::product(self.zeros.as_ref(), weights.as_ref()) - &self.by_coordinates
+    }
+
+    /// W with which Z W is nearest to C X on some displacements, unweighted, as far as these tell combinations of Z apart: by at least [`LEVER`] of
+    /// how the others do.
+    fn on(&self, is_one: &dyn Fn(usize) -> bool) -> Result<Mat<f64>> {
+        let some: Vec<usize> = self.displacements.iter().copied().filter(|i| is_one(self.rows[*i])).collect();
+        if some.is_empty() {
+            return Ok(self.weights.clone());
+        }
+        let at = |places: &[usize], a: &Mat<f64>| Mat::from_fn(places.len(), a.ncols(), |i, j| a[(places[i], j)]);
+        let on = |a: &Mat<f64>| at(&some, a);
+        let mean = |a: &Mat<f64>| dense::gram(a.as_ref(), a.as_ref()) * faer::Scale(1.0 / a.nrows() as f64);
+        let (squares, vectors) = dense::symmetric_eigen(mean(&at(&self.displacements, &self.zeros)).as_ref())?;
+        let largest = squares.last().copied().unwrap_or(0.0);
+        let moving: Vec<usize> = (0..squares.len()).filter(|k| squares[*k] > NO_MOTION * NO_MOTION * largest).collect();
+        let unit =
+            Mat::from_fn(vectors.nrows(), moving.len(), |i, k| vectors[(i, moving[k])] / squares[moving[k]].sqrt());
+        let z = dense::product(on(&self.zeros).as_ref(), unit.as_ref());
+        let (shares, own) = dense::symmetric_eigen(mean(&z).as_ref())?;
+        let told: Vec<usize> = (0..shares.len()).filter(|k| shares[*k] >= LEVER * LEVER).collect();
+        let own = dense::columns(own.as_ref(), &told);
+        let missing =
+            dense::gram(dense::product(z.as_ref(), own.as_ref()).as_ref(), on(&self.gap(&self.weights)).as_ref());
+        let step =
+            Mat::from_fn(told.len(), missing.ncols(), |k, j| -missing[(k, j)] / (shares[told[k]] * some.len() as f64));
+        let step = dense::product(unit.as_ref(), dense::product(own.as_ref(), step.as_ref()).as_ref());
+        Ok(&self.weights + step)
+    }
 }
 
+/// Share of its motion elsewhere that some rows must take of a combination to tell how much of it there is: patches that are small next to
+/// the body know its rotations less well than all of its nodes do.
+const LEVER: f64 = 0.1;
 /// Singular values relative to the largest below which a combination is none.
 const NO_MOTION: f64 = 1e-9;
 

@@ -65,6 +65,8 @@ pub(super) struct Zeros {
     bar_of_digits: f64,
     /// How well the entries of K are known.
     rounding: Rounding,
+    /// The angle by which roundings turn them towards elastic modes at most.
+    pub(super) turn: f64,
 }
 
 impl Zeros {
@@ -86,6 +88,7 @@ impl Zeros {
             elastic,
             bar_of_digits,
             rounding,
+            turn: zero.energy.angle,
         })
     }
 

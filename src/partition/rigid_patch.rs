@@ -14,7 +14,7 @@ use crate::job::InterfaceJob;
 
 /// Smallest singular value of a patch's levers, relative to the largest and with rotations scaled to the patch's size,
 /// below which the patch cannot move in six independent ways: far above rounding, far below any real patch.
-pub(super) const PATCH_RANK_TOLERANCE: f64 = 1e-8;
+const PATCH_RANK_TOLERANCE: f64 = 1e-8;
 
 /// The node of a rigid patch with all rows of its nodes.
 pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
@@ -76,6 +76,16 @@ pub(super) fn tied_rows(
     Ok(levers.iter().map(entries_of).collect())
 }
 
+/// How many motions of a node some rows tell apart: a rotation counts with the longest arm, so that the unit of length is none of the matter.
+pub(super) fn rank_of_levers(levers: &[[f64; 6]]) -> usize {
+    let is_rotation = |lever: &[f64; 6]| lever[..3].iter().all(|factor| *factor == 0.0);
+    let arms = levers.iter().filter(|lever| !is_rotation(lever)).flat_map(|lever| &lever[3..]);
+    let longest = arms.fold(0.0f64, |max, arm| max.max(arm.abs()));
+    let unit = if longest > 0.0 { longest } else { 1.0 };
+    let in_one_unit = |lever: &[f64; 6]| if is_rotation(lever) { lever.map(|factor| factor * unit) } else { *lever };
+    rank_of_rows(&levers.iter().map(in_one_unit).collect::<Vec<_>>(), PATCH_RANK_TOLERANCE)
+}
+
 /// How the rows of a patch move with the six dofs of its node.
 ///
 /// # Errors
@@ -87,9 +97,35 @@ pub(super) fn independent(
 ) -> Result<Vec<[f64; 6]>> {
     let position = node.position.unwrap_or_default();
     let levers: Vec<[f64; 6]> = rows.iter().map(|row| sites.lever(*row, position)).collect();
-    let rank = rank_of_rows(&levers, PATCH_RANK_TOLERANCE);
+    let rank = rank_of_levers(&levers);
     if rank < expected {
         return Err(Error::PatchRank { interface: node.name.clone(), n_rows: rows.len(), rank, expected });
     }
     Ok(levers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two nodes that turn tell all six motions of theirs, whatever the unit of their distance.
+    #[test]
+    fn rotations_count_in_any_unit_of_length() {
+        for length in [1e-9, 1.0, 1e9, 1e12] {
+            let arm = [0.6, 0.5, -0.62].map(|x| x * length);
+            let at = |r: [f64; 3]| {
+                let translations = [
+                    [1.0, 0.0, 0.0, 0.0, r[2], -r[1]],
+                    [0.0, 1.0, 0.0, -r[2], 0.0, r[0]],
+                    [0.0, 0.0, 1.0, r[1], -r[0], 0.0],
+                ];
+                let rotations = [0, 1, 2].map(|axis| std::array::from_fn(|j| f64::from(u8::from(j == 3 + axis))));
+                (translations, rotations)
+            };
+            let (translations, rotations): (Vec<_>, Vec<_>) = [arm, arm.map(|x| -x)].map(at).into_iter().unzip();
+            let without = translations.concat();
+            assert_eq!(rank_of_levers(&without), 5, "{length:e}");
+            assert_eq!(rank_of_levers(&[without, rotations.concat()].concat()), 6, "{length:e}");
+        }
+    }
 }

@@ -11,10 +11,9 @@
 
 use super::held::{Ground, Held};
 use super::interface_node::{InterfaceNode, Interfaces, Resolved, Rows};
-use super::rigid_patch::PATCH_RANK_TOLERANCE;
+use super::rigid_patch::rank_of_levers;
 use super::sites::Sites;
 use super::unloaded::Unloaded;
-use crate::dense::rank_of_rows;
 use crate::dofs::Direction;
 use crate::error::{Error, Result};
 use crate::job::{Coupling, DofUse, InterfaceJob, SceneJob};
@@ -152,7 +151,7 @@ impl Resolved {
         let position = [0, 1, 2].map(mean);
         let sites = Sites::new(model);
         let levers: Vec<[f64; 6]> = members.iter().flat_map(|member| member.levers(&sites, position)).collect();
-        let (rank, expected) = (rank_of_rows(&levers, PATCH_RANK_TOLERANCE), Direction::ALL.len());
+        let (rank, expected) = (rank_of_levers(&levers), Direction::ALL.len());
         if rank < expected {
             return Err(Error::PatchRank { interface: name.to_owned(), n_rows: levers.len(), rank, expected });
         }

@@ -206,7 +206,7 @@ fn an_upright_along_turned_axes_is_no_held_chain() {
     let edges = [[0, 1], [1, 2], [3, 4], [4, 5], [1, 4]];
     let sound = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent);
     let tied = supel::partition::TiedNodes::default();
-    for degrees in [180.0_f64, 90.0, 20.0, 3.0, 1.0] {
+    for degrees in [180.0_f64, 90.0, 20.0, 3.0, 1.0, 0.1, 1e-3] {
         let (sine, cosine) = degrees.to_radians().sin_cos();
         let axes = [[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]];
         let faulty = in_local_frames(&sound, &axes, |label| label > 3);
@@ -214,7 +214,8 @@ fn an_upright_along_turned_axes_is_no_held_chain() {
             coordinates::compared(Checked::new(input(&faulty)).expect("a model"), (&[], mechanisms), &tied)
         };
         let Err(Error::CoordinatesDoNotFit { found, .. }) = settled(Mechanisms::Warn) else { panic!("{degrees}") };
-        assert!(found.contains("6 motions without energy") && found.contains("mechanisms"), "{degrees}: {found}");
+        let is_told = found.contains("6 motions without energy") && found.contains("mechanisms");
+        assert!(is_told || found.contains("nothing holds the body"), "{degrees}: {found}");
         assert!(settled(Mechanisms::Accept).is_ok(), "{degrees}");
     }
 }

@@ -287,6 +287,23 @@ fn axes_of_few_decimals_are_refused_by_table_and_node() {
     }
 }
 
+/// Axes of five decimals and more are right but for their digits: these turn the mass of a node as well, which is none of another order.
+#[test]
+fn axes_of_enough_decimals_turn_no_mass() {
+    for (nodes, decimals) in [(vec![(15, turned_by(0.7))], 5), (vec![(15, turned_by(0.7)), (20, turned_by(1.9))], 6)] {
+        let (place, flags) = each_in_its_own(&nodes, |value| format!("{value:.decimals$}"));
+        let ended = place.reduce(&flags, FREE).expect(ExitCode::Done);
+        assert!(ended.out.contains("W-FRAME-DIGITS"), "{}", ended.out);
+        assert!(!ended.out.contains("W-MASS-DIRECTION"), "{}", ended.out);
+        // Inertia relief answers the motions as zero modes mend them, in the file and with the job.
+        let herting = "--rigid-interface hub=5,10,45 --interface foot=1,31 --method herting --modes 4";
+        place.reduce(&flags, herting).expect(ExitCode::Done);
+        let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
+        place.write("kept.json", job.as_bytes());
+        supel(&["verify", &place.text("x.supel"), "--job", &place.text("kept.json")]).expect(ExitCode::Done);
+    }
+}
+
 /// Directions of few decimals may be exact, and K tells.
 #[test]
 fn axes_that_few_decimals_tell_exactly_are_taken() {

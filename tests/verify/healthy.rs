@@ -369,6 +369,28 @@ fn a_heavy_mass_is_named_where_a_check_fails() {
     }
 }
 
+/// Where supports leave one motion and the interface has no part in it, rounding is all that the file has of it there: its rigid-body
+/// coordinate is needed.
+#[test]
+fn a_rigid_body_coordinate_that_the_interface_has_no_part_in() {
+    for cells in [[1, 1, 1], [2, 2, 2], [3, 3, 3]] {
+        let place = Place::with(&brick(cells, [1.0; 3], &Material::STEEL_SI));
+        for dofs in [r#"["ux"]"#, r#"["ux", "ry"]"#] {
+            let job = format!(
+                "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\nnodes = \"nodes.csv\"\ndofs = \"dofs.txt\"\n\
+                 [[fixed]]\nnodes = {{ within = {{ box = {{ min = [1, 0, 0], max = [1, 1, 1] }} }} }}\ndofs = [\"ux\", \"uy\"]\n\
+                 [[interface]]\nname = \"a\"\nnodes = {{ within = {{ box = {{ min = [0, 0, 0], max = [0, 1, 1] }} }} }}\n\
+                 coupling = \"rigid\"\ndofs = {dofs}\n[reduction]\nmethod = \"rubin\"\nmodes = {{ count = 3 }}\n\
+                 [write]\nsuperelement = \"x.supel\"\n"
+            );
+            place.write("job.toml", job.as_bytes());
+            supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+            passes(&place, &format!("{cells:?} {dofs}"));
+            supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
+        }
+    }
+}
+
 /// Next to a mass far heavier than the rest all unit motions load the interior of the part alike, and its own motions about the mass do not:
 /// Rubin's attachment modes are made of these. Where rounding leaves nothing of them, they are refused by name.
 #[test]

@@ -236,18 +236,16 @@ impl Columns {
     }
 
     /// What the elastic motion in zero modes found by iteration, K_II⁻¹(KQ)_I of length δ in the mass, adds to inertia relief: δ/λ in
-    /// inertia and δ/√λ in energy, λ the first eigenvalue of the interior, for which the softest column stands.
+    /// inertia and δ/√λ in energy, λ the first eigenvalue of the interior, for which the softest column stands. Those that are made again have
+    /// some, and those that the reduction starts from.
     fn add_turns(&mut self, follower: &mut Follower<'_>, motions: Motions<'_>) {
         if motions.source == RigidSource::Geometric {
             return;
         }
         let (p, softest) = (self.n_probes(), self.softest(follower.partition));
-        let forces = product(&follower.partition.stiffness, motions.relieved);
-        let elastic = follower.interior.solve(forces.as_ref().subrows(0, follower.partition.n_internal)).x;
-        let squares =
-            column_products(product(follower.partition.internal().mass, elastic.as_ref()).as_ref(), elastic.as_ref());
-        for (slot, square) in squares.into_iter().enumerate() {
-            let turn = square.max(0.0).sqrt();
+        let of_given: f64 = elastic_motion(follower, motions.carried.massive()).into_iter().sum();
+        for (slot, square) in elastic_motion(follower, motions.relieved).into_iter().enumerate() {
+            let turn = (square + of_given).sqrt();
             self.energy_errors[p + slot] += turn / softest.sqrt();
             self.inertia_errors[p + slot] += turn / softest;
         }
@@ -262,6 +260,14 @@ impl Columns {
         let ratios = energies.iter().zip(&inertias).filter(|(_, inertia)| **inertia > 0.0).map(|(e, m)| e / m);
         ratios.fold(f64::INFINITY, f64::min)
     }
+}
+
+/// ‖K_II⁻¹(KQ)_I‖² in the mass, column by column.
+fn elastic_motion(follower: &mut Follower<'_>, zero: MatRef<'_, f64>) -> Vec<f64> {
+    let forces = product(&follower.partition.stiffness, zero);
+    let elastic = follower.interior.solve(forces.as_ref().subrows(0, follower.partition.n_internal)).x;
+    let momenta = product(follower.partition.internal().mass, elastic.as_ref());
+    column_products(momenta.as_ref(), elastic.as_ref()).into_iter().map(|square| square.max(0.0)).collect()
 }
 
 /// Motions of the interior, with what they lack.

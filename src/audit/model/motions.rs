@@ -37,6 +37,8 @@ pub(super) struct KnownMotions {
     /// The unit motions, where the file's are those.
     unit: Option<UnitMotions>,
     meaning: Meaning,
+    /// Whether inertia relief answers the motions that the reduction starts from, whatever these are.
+    is_relief_of_given: bool,
     /// Whether they move one mass with one centre.
     is_of_a_body: bool,
     /// Whether the interface tells them apart.
@@ -111,6 +113,8 @@ impl KnownMotions {
                 (false, true) => Meaning::Classical,
                 (false, false) => Meaning::Zero,
             },
+            is_relief_of_given: is_geometric
+                || given.is_classical && given.count() == n_zero && given.n_mechanisms == 0,
             is_of_a_body: given.is_classical && is_of_a_body(given.rigid_body_mass(&partition.mass).as_ref()),
             sight: Sight::Whole,
             rounding,
@@ -148,6 +152,11 @@ impl KnownMotions {
     /// Whether inertia relief answers the unit motions, whatever they are called.
     pub(super) fn has_unit(&self) -> bool {
         self.unit.is_some()
+    }
+
+    /// Whether it answers the motions that the reduction starts from: those of the coordinates, or these as far as zero modes mend them.
+    pub(super) fn is_relief_of_given(&self) -> bool {
+        self.is_relief_of_given
     }
 
     /// What rounding of K may move a displacement by, relatively.
