@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn tabs_end_fields() {
         let small = ["KAAX", "1", "3", "", "1", "3", "2.5+3", ""];
-        for line in ["DMIG\tKAAX\t1\t3\t\t1\t3\t2.5+3\t\t+C1", "DMIG    KAAX\t       1       3\t\t1\t3\t2.5+3"] {
+        for line in ["DMIG\tKAAX\t1\t3\t\t1\t3\t2.5+3\t\t+C1", "DMIG    KAAX\t       1       3\t1\t3\t2.5+3"] {
             assert_eq!(texts(first_fields(line.as_bytes(), "DMIG")), small, "{line:?}");
         }
         assert_eq!(

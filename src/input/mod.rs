@@ -34,6 +34,7 @@ mod foreign_modes;
 mod format;
 mod formats;
 mod fortran;
+mod fortran_format;
 mod frd_modes;
 mod further_matrix;
 mod gathering;
