@@ -80,6 +80,7 @@ mod npy_series;
 mod npz;
 mod numpy_array;
 mod op4;
+mod outer_faces;
 mod patch;
 mod patch_faces;
 mod quantity_files;
@@ -127,6 +128,7 @@ pub use model_files::{
 pub use modes_file::{ModeColumns, mode_columns};
 pub use named_files::{bytes_of_matrices, file_of, files, hdf5_file};
 pub use note::InputNote;
+pub use outer_faces::outer_faces;
 pub use patch::{Face, Faces, Patch, PatchFaces, Patches};
 pub use patch_faces::{Cells, looks_at_faces, patch_faces};
 pub use quantity_files::{QuantityRows, quantity_rows};
