@@ -2,21 +2,23 @@
 
 use std::collections::{HashMap, HashSet};
 
+use supel_runtime::motion::dot;
+
 use super::ends::EndFace;
 use super::interfaces::rank;
 use super::surface::{Piece, Shape, pieces};
 use crate::dense;
 use crate::dofs::Nodes;
 use crate::input::Face;
-use crate::job::{NodeSelection, Region};
+use crate::job::{NodeSelection, Origin, Region};
 use crate::number::quantity;
-use crate::partition::{Fit, Partition, contains};
+use crate::partition::{Fit, Partition, contains, hole};
 
 /// Holes that are proposed at most.
 const MOST_HOLES: usize = 6;
 /// Interfaces that are proposed at most, ends counted.
 const MOST: usize = 8;
-/// Share of its radius by which a region goes beyond a hole, beyond what its nodes are off.
+/// Share of its radius by which a region goes beyond the nodes of a hole.
 const MARGIN: f64 = 1e-3;
 
 /// A hole or a flat face that may be an interface.
@@ -30,8 +32,8 @@ pub struct SurfacePatch {
     pub n_nodes: usize,
     /// What it is, in words.
     pub what: String,
-    /// How a job calls the place of its interface node; none where that is the mean of the nodes.
-    pub origin: Option<&'static str>,
+    /// The place of its interface node; that of a hole is on its axis.
+    pub origin: Origin,
 }
 
 /// The largest holes and, where they share no node with these or with an end, the largest flat faces; and the ends that share none with a
@@ -44,11 +46,15 @@ pub(super) fn patches(
 ) -> (Vec<SurfacePatch>, Vec<EndFace>) {
     let chooser = Chooser::new((partition, nodes), held);
     let mut taken: HashSet<usize> = HashSet::new();
-    let (holes, flat): (Vec<Piece>, Vec<Piece>) =
+    let (holes, mut flat): (Vec<Piece>, Vec<Piece>) =
         pieces(faces, &nodes.coordinates).into_iter().partition(|piece| matches!(piece.shape, Shape::Hole { .. }));
     let mut chosen = chooser.chosen(holes, MOST_HOLES, &mut taken);
+    // Faces across the longest extent are where a component ends; others are its sides.
+    let (axis, ends_at) = longest(&nodes.coordinates);
+    flat.sort_by_key(|piece| !ends_at.iter().any(|at| is_across(&piece.shape, (axis, *at), ends_at[1] - ends_at[0])));
     let is_free = |end: &EndFace, taken: &HashSet<usize>| {
-        taken.iter().all(|node| !contains(&end.region, nodes.coordinates[*node]))
+        let is_end = matches!(&end.region, Region::Plane { normal, .. } if normal[axis] != 0.0);
+        (is_end || flat.is_empty()) && taken.iter().all(|node| !contains(&end.region, nodes.coordinates[*node]))
     };
     let ends: Vec<EndFace> = ends.into_iter().filter(|end| is_free(end, &taken)).collect();
     for end in &ends {
@@ -112,13 +118,13 @@ impl<'a> Chooser<'a> {
                 format!("hole-{number}"),
                 format!("a hole of radius {} about ({})", quantity(fit.radius, 4), point(at)),
                 self.about(piece, (at, fit)),
-                Some("hole"),
+                self.on_axis(piece, at),
             ),
             Shape::Flat { at, normal } => (
                 format!("face-{number}"),
                 format!("a flat face of area {}, normal ({})", quantity(piece.area, 4), point(normal)),
                 Some(self.slab(at, normal)),
-                None,
+                Origin::Centroid,
             ),
         };
         let region = region.filter(|region| self.has_just(region, piece));
@@ -133,16 +139,27 @@ impl<'a> Chooser<'a> {
         inside.eq(piece.nodes.iter().copied())
     }
 
+    /// The middle of the axis of a hole: by the fit of a job, or as a point where nodes between its corners are too far off.
+    fn on_axis(&self, piece: &Piece, at: [f64; 3]) -> Origin {
+        let points: Vec<[f64; 3]> = piece.nodes.iter().map(|node| self.nodes.coordinates[*node]).collect();
+        if hole(&points).is_ok() { Origin::Hole } else { Origin::Point(at.map(short)) }
+    }
+
     /// The shell around the wall of a hole.
     fn about(&self, piece: &Piece, (at, fit): ([f64; 3], Fit)) -> Option<Region> {
         let axis = fit.axis?;
-        let margin = fit.residual + MARGIN * fit.radius;
-        let from_middle = |node: &usize| -> f64 {
-            (0..3).map(|i| (self.nodes.coordinates[*node][i] - at[i]) * axis[i]).sum::<f64>().abs()
-        };
-        let reach = piece.nodes.iter().map(from_middle).fold(0.0, f64::max) + margin;
+        let margin = MARGIN * fit.radius;
+        let (mut reach, mut low, mut high) = (0.0f64, fit.radius, fit.radius);
+        for node in &piece.nodes {
+            let from: [f64; 3] = std::array::from_fn(|i| self.nodes.coordinates[*node][i] - at[i]);
+            let along = dot(&from, &axis);
+            let across: [f64; 3] = std::array::from_fn(|i| from[i] - along * axis[i]);
+            let distance = dense::norm(&across);
+            (reach, low, high) = (reach.max(along.abs()), low.min(distance), high.max(distance));
+        }
+        let reach = reach + margin;
         let end = |side: f64| std::array::from_fn(|i| short(at[i] + side * reach * axis[i]));
-        let [radius, inner_radius] = [fit.radius + margin, fit.radius - margin].map(short);
+        let [radius, inner_radius] = [high + margin, (low - margin).max(0.0)].map(short);
         Some(Region::Cylinder { from: end(-1.0), to: end(1.0), radius, inner_radius })
     }
 
@@ -151,6 +168,20 @@ impl<'a> Chooser<'a> {
         let size = dense::worst(self.nodes.coordinates.iter().flatten().map(|x| x.abs()));
         Region::Plane { point: at.map(short), normal: normal.map(short), tolerance: short(1e-5 * size) }
     }
+}
+
+/// The axis of the longest extent, and where that ends.
+fn longest(positions: &[[f64; 3]]) -> (usize, [f64; 2]) {
+    let end = |axis: usize, pick: fn(f64, f64) -> f64| positions.iter().map(|x| x[axis]).reduce(pick).unwrap_or(0.0);
+    let ends = [0, 1, 2].map(|axis| (axis, [end(axis, f64::min), end(axis, f64::max)]));
+    let extent = |(_, [low, high]): &(usize, [f64; 2])| high - low;
+    ends.into_iter().reduce(|a, b| if extent(&b) > extent(&a) { b } else { a }).unwrap_or((0, [0.0; 2]))
+}
+
+/// Whether a piece is flat and lies across an axis at some place, to five digits of the extent.
+fn is_across(shape: &Shape, (axis, place): (usize, f64), extent: f64) -> bool {
+    let Shape::Flat { at, normal } = shape else { return false };
+    (at[axis] - place).abs() <= 1e-5 * extent && normal[axis].abs() >= 1.0 - 1e-5
 }
 
 /// A number of six digits, as a job of people has them; one below rounding of the others is zero.

@@ -12,7 +12,7 @@ use super::finding::Severity;
 use super::interfaces::Candidate;
 use super::patches::SurfacePatch;
 use super::text::{on_surface, units as in_words};
-use crate::job::{ConstraintsToGround, NodeSelection};
+use crate::job::{ConstraintsToGround, NodeSelection, Origin};
 use crate::number::{counted, quantity};
 use crate::report::printable;
 
@@ -277,7 +277,11 @@ fn of_patch(patch: &SurfacePatch) -> String {
         nodes => selection(nodes),
     };
     text += &line("coupling", "rigid", "or \"average\", so that the patch stays free to deform");
-    patch.origin.iter().for_each(|origin| text += &line("origin", *origin, "the interface node is on the axis"));
+    if patch.origin != Origin::Centroid
+        && let Ok(origin) = Value::try_from(&patch.origin)
+    {
+        text += &line("origin", origin, "the interface node is on the axis");
+    }
     text
 }
 

@@ -46,7 +46,7 @@ pub(super) struct Piece {
 /// What a part of a surface is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Shape {
-    /// A closed ring about an axis, with the middle of that.
+    /// A closed ring about an axis, with the middle of that and the cylinder that its corners are on.
     Hole { at: [f64; 3], fit: Fit },
     /// A plane with a point of it and its normal, out of the material.
     Flat { at: [f64; 3], normal: [f64; 3] },
@@ -209,7 +209,9 @@ impl<'a> Surface<'a> {
         if !is_ring || dense::norm(&[0, 1, 2].map(sum)) > OPEN * area {
             return None;
         }
-        let points: Vec<[f64; 3]> = self.nodes(region).into_iter().map(|node| self.positions[node]).collect();
+        // Nodes in the middles of straight edges are off the surface that the corners are on.
+        let corners: BTreeSet<usize> = region.iter().flat_map(|facet| &self.faces[*facet].corners).copied().collect();
+        let points: Vec<[f64; 3]> = corners.into_iter().map(|node| self.positions[node]).collect();
         let (at, fit) = hole(&points).ok()?;
         let axis = fit.axis?;
         let looks_inwards = |facet: &&usize| {
@@ -467,6 +469,27 @@ mod tests {
             let ends: Vec<&Piece> = found.iter().filter(|piece| !is_hole(piece)).collect();
             assert_eq!(ends.len(), 2, "{inner}: {ends:?}");
         }
+    }
+
+    /// Of eight facets with straight edges the nodes in the middles are off the cylinder that the corners are on.
+    #[test]
+    fn nodes_between_corners_do_not_move_a_hole() {
+        const FACETS: usize = 8;
+        let mut mesh = Mesh::default();
+        for k in 0..FACETS {
+            let at = |k: usize, z: f64| on_circle([3.0, 1.0], 0.5, k * AROUND / FACETS, z);
+            let corners = [at(k, 0.0), at(k, HEIGHT), at(k + 1, HEIGHT), at(k + 1, 0.0)];
+            let middles = (0..4).map(|edge| mesh.node(mean(&[corners[edge], corners[(edge + 1) % 4]]))).collect();
+            let corners = corners.map(|corner| mesh.node(corner)).to_vec();
+            mesh.faces.push(Face { corners, middles, centre: None });
+        }
+        let found = mesh.pieces();
+        let [Piece { shape: Shape::Hole { at, fit }, nodes, .. }] = &found[..] else { panic!("{found:?}") };
+        assert!(
+            dense::norm(&minus(*at, [3.0, 1.0, 0.5 * HEIGHT])) < 1e-9 && (fit.radius - 0.5).abs() < 1e-9,
+            "{fit:?}"
+        );
+        assert_eq!(nodes.len(), 5 * FACETS);
     }
 
     /// A thin plate has two large faces, the largest first, and no hole, however its facets are turned about it.
