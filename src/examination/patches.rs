@@ -112,7 +112,7 @@ impl<'a> Chooser<'a> {
     }
 
     fn patch(&self, piece: &Piece, number: usize) -> SurfacePatch {
-        let point = |at: [f64; 3]| at.map(|x| quantity(x, 4)).join(", ");
+        let point = |at: [f64; 3]| at.map(|x| quantity(short(x), 4)).join(", ");
         let (name, what, region, origin) = match piece.shape {
             Shape::Hole { at, fit } => (
                 format!("hole-{number}"),
