@@ -18,9 +18,9 @@ use supel_runtime::{FileError, MatrixKind};
 
 use code::catalogued;
 use words::{
-    At, BY_ROWS, FEW_DIGITS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, SOFTER_THAN_DIGITS, STATE_DIGITS,
-    STATE_EXACT, Suggested, and_more, at_line, column_words, forecast, groups, kinetic_energy, listed, multipliers,
-    named_matrices, not_text, of_file, place, quoted, unloaded_reacts_nothing,
+    At, BY_ROWS, OFF_THE_AXIS, Offered, ROWS_THAT_MOVE, SIX_DOFS, SOFTER_THAN_DIGITS, STATE_DIGITS, Suggested,
+    and_more, at_line, column_words, forecast, groups, kinetic_energy, listed, multipliers, named_matrices, not_text,
+    of_file, place, quoted, unloaded_reacts_nothing,
 };
 
 use crate::number::{bytes, count, counted, quantity, typed};
@@ -28,8 +28,8 @@ use crate::number::{bytes, count, counted, quantity, typed};
 pub use code::{ErrorClass, ErrorEntry, INTERNAL_CODE, USAGE_CODE};
 pub use selector::Selector;
 pub use warning::Warning;
-pub use words::Unnamed;
 pub(crate) use words::held_words;
+pub use words::{Uncertain, Unnamed};
 
 /// The result of every fallible call of this crate.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -3288,7 +3288,7 @@ pub enum Error {
         "the interface can react only {rank} of the {}{motion} – expected all – {}{}{}",
         counted(*n_rigid, "rigid-body motion", "rigid-body motions"),
         unloaded_reacts_nothing(unloaded),
-        if *has_coordinates { OFF_THE_AXIS } else { ROWS_THAT_MOVE }, if *has_few_digits { FEW_DIGITS } else { "" }
+        if *has_coordinates { OFF_THE_AXIS } else { ROWS_THAT_MOVE }, Uncertain::besides(*uncertain)
     )]
     InterfaceRank {
         /// Motions it reacts.
@@ -3299,8 +3299,8 @@ pub enum Error {
         motion: String,
         /// Whether coordinates are known, so that the motion has an axis.
         has_coordinates: bool,
-        /// Whether the stiffness has few digits, which may be all that is wrong.
-        has_few_digits: bool,
+        /// Why the stiffness may be known too little, which may be all that is wrong.
+        uncertain: Option<Uncertain>,
         /// Interface dofs that the scene leaves unloaded, which react nothing.
         unloaded: Vec<String>,
     },
@@ -3380,18 +3380,20 @@ pub enum Error {
         /// The error of its inverse that is accepted.
         error: f64,
     },
-    /// The digits of the stiffness leave open whether it is definite, or how many motions cost no energy.
+    /// The digits of the stiffness, or its triangles, leave open whether it is definite, or how many motions cost no energy.
     #[entry(
         "E-DATA-PRECISION",
         InputData,
-        "write the stiffness with more digits, best in binary, or say `model.stiffness_digits = 17` in the job if its numbers are exact"
+        "write the stiffness with more digits, best in binary, or say `model.stiffness_digits = 17` in the job if its numbers are exact; where its triangles differ, \
+        correct it, or say which of them holds with `model.symmetric`"
     )]
     #[error(
-        "the digits of the stiffness do not tell {what} – {known} – \
-        expected entries whose last digit does not decide that – write the stiffness with more digits, best in \
-        binary, {STATE_EXACT}"
+        "{} not tell {what} – {known} – expected {} – {}",
+        cause.subject(), cause.expected(), cause.remedy()
     )]
     DigitsTooFew {
+        /// Why it is open.
+        cause: Uncertain,
         /// What is open.
         what: String,
         /// How well its entries are known.

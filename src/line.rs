@@ -140,13 +140,13 @@ pub(crate) fn known(
 /// An interface that lacks a motion, with what the scene leaves unloaded of it.
 fn naming_unloaded(error: Error, plan: &Plan) -> Error {
     match error {
-        Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, has_few_digits, .. } => {
+        Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, uncertain, .. } => {
             let scene = plan.job().scene.as_ref();
             let parts = scene.iter().flat_map(|scene| scene.unloaded.iter().map(|part| format!("`{}`", part.0)));
             let others =
                 scene.and_then(|scene| scene.connected.as_ref()).map(|_| "all that is not `connected`".to_owned());
             let unloaded = parts.chain(others).collect();
-            Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, has_few_digits, unloaded }
+            Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, uncertain, unloaded }
         }
         error => error,
     }

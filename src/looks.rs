@@ -171,6 +171,11 @@ pub fn examine(job: &Job, (resources, observer): (Resources, &mut dyn Observer))
     let allowance = Allowance::of(resources.allowed(&attempt));
     let nodes = attempt.model.nodes.as_deref().map(|path| input::nodes(path, &allowance)).transpose()?;
     examination.look_at(&partition, &facts, nodes.as_ref());
+    if let Some(nodes) = nodes.as_ref().filter(|_| examination.lacks_interfaces()) {
+        // A surface that takes more memory than there is, or that is damaged, leaves the ends of the component to be proposed.
+        let faces = input::outer_faces(&attempt.model, nodes, &allowance).unwrap_or_default();
+        examination.look_at_surface(&partition, nodes, &faces);
+    }
     let reduced = with_stages(&Plan::of(&attempt), &partition, (resources, observer), |stages, observer| {
         concluded(&stages, &facts, observer)
     });

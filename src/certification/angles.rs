@@ -16,8 +16,9 @@
 //! sin ∠ ≤ √(Σ a_k² (λ_k − σ) / s) + δ_⊥/γ_⊥ √(1 + (δ/γ)²)
 //! ```
 //! The root is how far Ritz vectors turn among each other by what is outside of them (Saad 2011, theorem 4.6). Of both bounds the smaller
-//! one counts. Roundings δx of a shape change the first by ‖δx‖/γ, the second by ‖δx‖ (1 + 1/γ_⊥), and what it has of other known modes by
-//! no more than ‖δx‖, all relative to ‖x‖: however few digits tell of modes beyond τ, of the others they tell much.
+//! one counts. Roundings δx of a shape change the first by ‖δx‖/γ and the second by ‖δx‖ (1 + 1/γ_⊥), relative to ‖x‖. They change √Σ a_k², what
+//! it has of other known modes in the norm of M, by no more than ‖δx‖ in that norm, where they are no larger than the digits say: however
+//! few digits tell of modes beyond τ, of the others they tell much.
 
 use std::ops::Range;
 
@@ -37,8 +38,6 @@ pub(super) struct Angle {
     pub(super) value: f64,
     /// How often the length of what a shape is rounded by it counts.
     pub(super) per_rounding: f64,
-    /// What the shape has of known modes of other clusters.
-    pub(super) of_known: f64,
 }
 
 /// The shapes of a result among the known modes.
@@ -91,6 +90,18 @@ impl AmongKnown {
         Ok(Some(Self { lambda: ritz.eigenvalues(), along, forces, tau }))
     }
 
+    /// What a shape has of known modes of other clusters, in the norm of M.
+    pub(super) fn of_others(&self, claim: usize, cluster: &Range<usize>) -> f64 {
+        let others = (0..self.lambda.len()).filter(|mode| !cluster.contains(mode));
+        others.map(|mode| self.along[(mode, claim)].powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// What a shape has besides the modes of its cluster, in the norm of M.
+    pub(super) fn beside(&self, claim: usize, cluster: &Range<usize>) -> f64 {
+        let within: f64 = cluster.clone().map(|mode| self.along[(mode, claim)].powi(2)).sum();
+        (1.0 - within).max(0.0).sqrt()
+    }
+
     /// The bound by what a shape has of known modes and of others; `of_nearest` is δ/γ.
     fn angle(&self, claim: usize, cluster: &Range<usize>, measured: &Measured, of_nearest: f64) -> Option<Angle> {
         let (sigma, rho, lacking) = (measured.sigma, measured.lambda[claim], measured.lacking[claim]);
@@ -115,7 +126,7 @@ impl AmongKnown {
         let outside = (lacking * lacking - force).max(rounding).sqrt();
         let of_known = of_others.sqrt();
         let value = of_known + outside / gap * of_nearest.hypot(1.0);
-        Some(Angle { value, per_rounding: 1.0 + 1.0 / gap, of_known })
+        Some(Angle { value, per_rounding: 1.0 + 1.0 / gap })
     }
 }
 
@@ -127,7 +138,7 @@ pub(super) fn angle(
     measured: &Measured,
 ) -> Angle {
     let of_nearest = measured.lacking[claim] / gap;
-    let nearest = Angle { value: of_nearest, per_rounding: 1.0 / gap, of_known: 0.0 };
+    let nearest = Angle { value: of_nearest, per_rounding: 1.0 / gap };
     let among = known.and_then(|known| known.angle(claim, cluster, measured, of_nearest));
     let least = among.filter(|among| among.value < nearest.value).unwrap_or(nearest);
     Angle { value: least.value.min(1.0), ..least }

@@ -36,6 +36,8 @@ pub struct Claims {
     pub(super) strayed: Vec<Strayed>,
     /// What the numbers of each shape may be off by, relative to them.
     pub(super) shape_rounding: Vec<f64>,
+    /// Length of what the digits of each shape round, in the norm of the mass and relative to the shape: δxᵀMδx ≤ u² |x|ᵀ|M||x|.
+    pub(super) rounded: Vec<f64>,
     /// What each stated frequency may be off by, relative to it; zero where the result has none.
     pub(super) value_rounding: Vec<f64>,
     /// What the numbers of the frequencies are.
@@ -74,6 +76,12 @@ impl Claims {
             let length = masses[at].sqrt();
             dense::column_mut(shapes.as_mut(), at).iter_mut().for_each(|value| *value /= length);
         }
+        // Half a unit of the last digit is that of the number as it was, which is smaller by as much at most.
+        let of_shape = |at: usize| {
+            let u = carried[at].rounding;
+            if has_mass[at] && u < 1.0 { u / (1.0 - u) * (terms[at] / masses[at]).sqrt() } else { 0.0 }
+        };
+        let rounded = (0..k).map(of_shape).collect();
         let unit_of_mass = partition.scaling.mass_unit();
         let of_file = |(mass, shape): (&f64, &Carried)| mass * shape.unit * shape.unit * unit_of_mass;
         let to_scaled =
@@ -85,6 +93,7 @@ impl Claims {
             lambda: values.map(|values| values.numbers.iter().map(|number| to_scaled(values, number)).collect()),
             strayed: carried.iter().map(|shape| shape.strayed).collect(),
             shape_rounding: carried.iter().map(|shape| shape.rounding).collect(),
+            rounded,
             value_rounding: values
                 .map_or_else(|| vec![0.0; k], |values| (0..k).map(|at| values.rounding_of(at)).collect()),
             unit: values.map(|values| values.unit),
@@ -102,6 +111,7 @@ impl Claims {
             lambda: self.lambda.as_deref().map(of),
             strayed: pairs.iter().map(|at| self.strayed[*at]).collect(),
             shape_rounding: of(&self.shape_rounding),
+            rounded: of(&self.rounded),
             value_rounding: of(&self.value_rounding),
             unit: self.unit,
             numbers: of(&self.numbers),

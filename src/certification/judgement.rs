@@ -16,6 +16,9 @@ use super::claims::Claims;
 use super::independence::Standing;
 use super::measured::Measured;
 use super::pair::{JudgedPair, MissingMode, PairKind};
+use super::rounding::{
+    MOST_OF_DIGITS, OfShape, is_rounded_mode, of_digits_in_energy, of_digits_in_frequency, of_digits_of_shape,
+};
 use crate::dense;
 use crate::eigen::frequency_bar;
 use crate::modes::BoundaryProblem;
@@ -25,8 +28,6 @@ use crate::sparse::product;
 const MOSTLY: f64 = 0.5;
 /// Relative difference of a frequency beyond which it is not that of its mode: reduced models are accepted with less.
 pub(super) const INEXACT: f64 = 1e-3;
-/// Relative difference of a frequency, and energy of rigid-body motion relative to the first elastic one, that no digits excuse.
-pub(super) const MOST_OF_DIGITS: f64 = 1e-2;
 /// λ of rigid-body motion relative to the first elastic one: a hundredth of its frequency.
 pub(super) const NOT_RIGID: f64 = 1e-4;
 
@@ -48,6 +49,10 @@ pub(super) struct Judged {
     pub(super) residual_bars: Vec<f64>,
     /// What the digits of each shape leave open of its frequency, relative to it.
     pub(super) of_shapes: Vec<f64>,
+    /// Whether each shape is no farther from its mode than the rounding of its digits, where these are few.
+    pub(super) is_rounded: Vec<bool>,
+    /// What each shape has of known modes other than its own, in the norm of M.
+    pub(super) of_others: Vec<Option<f64>>,
 }
 
 /// Judges every pair.
@@ -61,23 +66,7 @@ pub(super) fn judged_pairs(
     let truth = Truth { lambda: &modes.lambda, clusters: clusters(&modes.lambda), completed, sigma: measured.sigma };
     let momenta = product(problem.modal().mass, claims.shapes.as_ref());
     let shares = dense::gram(modes.shapes.as_ref(), momenta.as_ref());
-    let mut taken: Vec<Vec<usize>> = vec![Vec::new(); truth.clusters.len()];
-    let mut kinds: Vec<Found> = (0..claims.count()).map(|_| Found::invented()).collect();
-    // Good shapes take their places first.
-    for is_kept in [true, false] {
-        for claim in 0..claims.count() {
-            if (standing[claim] == Standing::Kept) == is_kept {
-                let own = measured.lambda[claim];
-                // A pair is above what is known where neither its shape nor what is stated of it lies below.
-                let told = claims.lambda.as_ref().map_or(own, |stated| stated[claim].min(own));
-                // A band that nobody asked for ends where the result does: all that it has is judged, but for motions without mass,
-                // which are modes of infinite frequency.
-                let may_be_above = completed.is_asked || !claims.has_mass[claim];
-                let above = Some(told).filter(|_| may_be_above);
-                kinds[claim] = truth.found(claim, standing[claim], (&shares, above), &mut taken);
-            }
-        }
-    }
+    let (kinds, taken) = truth.found_of_all((claims, measured), standing, &shares);
     let n_rigid = kinds.iter().filter(|found| found.kind == PairKind::RigidBody).count();
     let has_rigid = completed.ends[0] <= 0.0;
     let n_rigid_missing = if has_rigid { problem.n_rigid().saturating_sub(n_rigid) } else { 0 };
@@ -88,19 +77,42 @@ pub(super) fn judged_pairs(
         of_digits_of_shape(claims, measured, (claim, gap))
     };
     let of_shapes: Vec<f64> = (0..claims.count()).map(of_shape).collect();
+    let is_rounded: Vec<bool> = (0..claims.count())
+        .map(|claim| {
+            let cluster = kinds[claim].cluster.map(|cluster| &truth.clusters[cluster]);
+            is_rounded_mode((claims, measured), known, (claim, standing[claim], cluster))
+        })
+        .collect();
     let context = Context { problem, claims, measured, truth: &truth };
-    let pair = |claim: usize| context.pair(claim, &kinds[claim], (residual_bars[claim], of_shapes[claim]));
+    let pair = |claim: usize| {
+        let (residual_bar, of_digits, is_rounded) = (residual_bars[claim], of_shapes[claim], is_rounded[claim]);
+        context.pair(claim, &kinds[claim], OfShape { residual_bar, of_digits, is_rounded })
+    };
     let pairs = (0..claims.count()).map(pair).collect();
     let angle_of = |claim: usize| {
         let cluster = kinds[claim].cluster?;
         Some(angle(known, claim, (&truth.clusters[cluster], truth.gap(cluster)), measured))
     };
     let angles = (0..claims.count()).map(angle_of).collect();
+    let of_others = |claim: usize| Some(known?.of_others(claim, &truth.clusters[kinds[claim].cluster?]));
+    let of_others = (0..claims.count()).map(of_others).collect();
     let (missing, n_cut) = context.missing(&taken);
     let mut is_taken = truth.clusters.iter().zip(&taken).filter(|(_, taken)| !taken.is_empty());
     let highest = is_taken.next_back().map(|(cluster, _)| truth.lambda[cluster.end - 1]);
     let n_above = truth.n_above();
-    Judged { pairs, missing, n_above, n_cut, n_rigid_missing, highest, angles, residual_bars, of_shapes }
+    Judged {
+        pairs,
+        missing,
+        n_above,
+        n_cut,
+        n_rigid_missing,
+        highest,
+        angles,
+        residual_bars,
+        of_shapes,
+        is_rounded,
+        of_others,
+    }
 }
 
 /// What a pair was found to be.
@@ -141,6 +153,31 @@ fn clusters(lambda: &[f64]) -> Vec<Range<usize>> {
 impl Truth<'_> {
     fn n_above(&self) -> usize {
         self.lambda.iter().filter(|lambda| **lambda > self.completed.known_to * (1.0 + CLUSTER)).count()
+    }
+
+    /// What all pairs are, and the pairs that each cluster has. Good shapes take their places first.
+    fn found_of_all(
+        &self,
+        (claims, measured): (&Claims, &Measured),
+        standing: &[Standing],
+        shares: &Mat<f64>,
+    ) -> (Vec<Found>, Vec<Vec<usize>>) {
+        let mut taken: Vec<Vec<usize>> = vec![Vec::new(); self.clusters.len()];
+        let mut kinds: Vec<Found> = (0..claims.count()).map(|_| Found::invented()).collect();
+        let kept_first = [true, false].into_iter().flat_map(|is_kept| {
+            (0..claims.count()).filter(move |claim| (standing[*claim] == Standing::Kept) == is_kept)
+        });
+        for claim in kept_first {
+            let own = measured.lambda[claim];
+            // A pair is above what is known where neither its shape nor what is stated of it lies below.
+            let told = claims.lambda.as_ref().map_or(own, |stated| stated[claim].min(own));
+            // A band that nobody asked for ends where the result does: all that it has is judged, but for motions without mass, which are
+            // modes of infinite frequency.
+            let may_be_above = self.completed.is_asked || !claims.has_mass[claim];
+            let above = Some(told).filter(|_| may_be_above);
+            kinds[claim] = self.found(claim, standing[claim], (shares, above), &mut taken);
+        }
+        (kinds, taken)
     }
 
     fn found(
@@ -216,13 +253,17 @@ impl Context<'_> {
         self.problem.component.partition.scaling.hertz(lambda)
     }
 
-    fn pair(&self, claim: usize, found: &Found, (residual_bar, of_shape): (f64, f64)) -> JudgedPair {
+    fn pair(&self, claim: usize, found: &Found, of_shape: OfShape) -> JudgedPair {
         let Self { problem, claims, measured, truth } = self;
         let lambda = measured.lambda[claim];
         let stated = claims.lambda.as_ref().map(|stated| stated[claim]);
         let shape_hz = self.hertz(lambda);
-        let of_cluster = found.cluster.map(|cluster| nearest(truth.lambda, truth.clusters[cluster].clone(), lambda));
-        let own_bar = frequency_bar(residual_bar + measured.errors[claim].data_bar, shape_hz);
+        // Of a shape that is its mode but for rounding the mode is known better than its quotient.
+        let is_by_mode = of_shape.is_rounded && found.kind == PairKind::Inexact && found.cluster.is_some();
+        let to = stated.filter(|_| is_by_mode).unwrap_or(lambda);
+        let of_cluster = found.cluster.map(|cluster| nearest(truth.lambda, truth.clusters[cluster].clone(), to));
+        let found_kind = if is_by_mode { PairKind::Mode } else { found.kind };
+        let own_bar = frequency_bar(of_shape.residual_bar + measured.errors[claim].data_bar, shape_hz);
         let bar_of = |mode: usize| truth.completed.modes.errors[mode].bar_of(self.hertz(truth.lambda[mode]));
         // Of a shape that is an eigenvector its own quotient is known best.
         let (mode, mode_bar) = match found.kind {
@@ -232,23 +273,14 @@ impl Context<'_> {
             PairKind::Repeated | PairKind::Invented | PairKind::OutsideBand => (None, None),
         };
         let stated_or_own = stated.unwrap_or(lambda);
-        let is_off = match (found.kind, mode) {
-            (PairKind::Mode, Some(mode)) => {
-                let off = (stated_or_own.max(0.0) / mode).sqrt() - 1.0;
-                let of_shape = of_shape.min(MOST_OF_DIGITS);
-                let of_digits = claims.value_rounding[claim] + of_digits_in_frequency(measured, claim) + of_shape;
-                !(off.abs() <= INEXACT + of_digits && 0.5 * residual_bar <= INEXACT + of_shape)
-            }
-            (PairKind::RigidBody, _) => {
-                let of_digits = |first: f64| of_digits_in_energy(measured, claim, first).min(MOST_OF_DIGITS);
-                let is_off = |first: f64| stated_or_own.abs() > NOT_RIGID.max(of_digits(first)) * first;
-                truth.completed.first_elastic.is_some_and(is_off)
-            }
+        let is_off = match (found_kind, mode) {
+            (PairKind::Mode, Some(mode)) => self.is_off(claim, (stated_or_own, mode), of_shape),
+            (PairKind::RigidBody, _) => self.is_no_rigid_motion(claim, of_shape),
             _ => false,
         };
-        let is_told = matches!(found.kind, PairKind::Mode | PairKind::RigidBody | PairKind::Inexact);
+        let is_told = matches!(found_kind, PairKind::Mode | PairKind::RigidBody | PairKind::Inexact);
         let out_of_place = Some(claims.strayed[claim]).filter(|strayed| is_told && strayed.fails());
-        let kind = if is_off || out_of_place.is_some() { PairKind::Inexact } else { found.kind };
+        let kind = if is_off || out_of_place.is_some() { PairKind::Inexact } else { found_kind };
         // What is stated in the band is judged although the shape belongs elsewhere, and the other way round.
         let is_inside = truth.completed.holds(mode.unwrap_or(lambda)) || truth.completed.holds(stated_or_own);
         let is_outside = truth.completed.is_asked && kind != PairKind::Repeated && !is_inside;
@@ -268,6 +300,32 @@ impl Context<'_> {
             repeats: found.repeats.map(|other| other + 1),
             neighbours_hz: if kind == PairKind::Invented { self.neighbours(stated_or_own) } else { [None, None] },
         }
+    }
+
+    /// Whether the frequency of a pair, or what its shape leaves open of it, is off that of its mode.
+    fn is_off(&self, claim: usize, (own, mode): (f64, f64), of_shape: OfShape) -> bool {
+        let Self { claims, measured, .. } = self;
+        let of_digits = claims.value_rounding[claim] + of_digits_in_frequency(measured, claim);
+        let off = (own.max(0.0) / mode).sqrt() - 1.0;
+        if of_shape.is_rounded {
+            // Without a frequency of its own the pair has that of its mode.
+            let is_near = off.abs() <= INEXACT + of_digits;
+            return claims.lambda.is_some() && !is_near;
+        }
+        let of_shape_digits = of_shape.of_digits.min(MOST_OF_DIGITS);
+        !(off.abs() <= INEXACT + of_digits + of_shape_digits
+            && 0.5 * of_shape.residual_bar <= INEXACT + of_shape_digits)
+    }
+
+    /// Whether a pair that moves as a rigid body has a frequency. The energy of a rounded shape is that of its rounding.
+    fn is_no_rigid_motion(&self, claim: usize, of_shape: OfShape) -> bool {
+        let Self { claims, measured, truth, .. } = self;
+        let stated = claims.lambda.as_ref().map(|stated| stated[claim]);
+        let Some(own) = stated.or_else(|| Some(measured.lambda[claim]).filter(|_| !of_shape.is_rounded)) else {
+            return false;
+        };
+        let of_digits = |first: f64| of_digits_in_energy(measured, claim, first).min(MOST_OF_DIGITS);
+        truth.completed.first_elastic.is_some_and(|first| own.abs() > NOT_RIGID.max(of_digits(first)) * first)
     }
 
     fn neighbours(&self, lambda: f64) -> [Option<f64>; 2] {
@@ -301,31 +359,6 @@ impl Context<'_> {
         }
         (missing, n_cut)
     }
-}
-
-/// What the digits of K and M leave open of the frequency of a shape, relative to it, up to what no digits excuse.
-pub(super) fn of_digits_in_frequency(measured: &Measured, claim: usize) -> f64 {
-    let bar = 0.5 * measured.errors[claim].data_bar;
-    if bar.is_nan() { 0.0 } else { bar.min(MOST_OF_DIGITS) }
-}
-
-/// Length of what the digits of a shape round, relative to it, in the norm of K: δxᵀKδx ≤ u² |x|ᵀ|K||x|.
-pub(super) fn of_rounding(claims: &Claims, measured: &Measured, claim: usize) -> f64 {
-    let rounding = claims.shape_rounding[claim];
-    if rounding > f64::EPSILON { rounding * measured.errors[claim].cancellation.sqrt() } else { 0.0 }
-}
-
-/// What they leave open of its frequency, relative to it: the quotient is off by the square of that length at most, and δ²/γ, the bar of
-/// its residual, by that over γ; of a root it is half.
-fn of_digits_of_shape(claims: &Claims, measured: &Measured, (claim, gap): (usize, f64)) -> f64 {
-    let share = 0.5 * of_rounding(claims, measured, claim).powi(2) * (1.0 + 1.0 / gap);
-    if share.is_nan() { 0.0 } else { share }
-}
-
-/// What they leave open of the energy of a shape, relative to the first elastic mode.
-pub(super) fn of_digits_in_energy(measured: &Measured, claim: usize, first: f64) -> f64 {
-    let bar = measured.errors[claim].data_bar * (measured.lambda[claim] / first).abs();
-    if bar.is_nan() { 0.0 } else { bar }
 }
 
 /// The mode of a cluster whose eigenvalue is nearest.

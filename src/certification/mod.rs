@@ -24,6 +24,7 @@ mod measured;
 mod orientation;
 mod pair;
 mod result_files;
+mod rounding;
 mod rows;
 mod strayed;
 mod superelement;

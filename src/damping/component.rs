@@ -47,12 +47,12 @@ impl Damping {
         let all = partition.matrices.iter().zip(&matrices);
         let damping = all.filter(|(carried, _)| carried.facts.kind == MatrixKind::Damping).map(|(_, matrix)| matrix);
         match Self::of(job, reduced, damping) {
-            Err(Error::DenseEigen { .. }) if partition.has_few_digits() => Err(Error::DigitsTooFew {
-                what:
+            Err(Error::DenseEigen { .. }) if partition.has_few_digits() => {
+                Err(partition.precision.stiffness.too_uncertain(
                     "the elastic modes of the reduced model, which damping acts on, from motions of energy below zero"
                         .to_owned(),
-                known: partition.precision.stiffness.in_words(),
-            }),
+                ))
+            }
             damping => damping,
         }
     }

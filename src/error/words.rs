@@ -9,16 +9,9 @@ use crate::number::{bytes, counted, quantity};
 /// How to go on where a dof map cannot be used.
 pub(super) const BY_ROWS: &str = "go on by rows: leave dof map and nodes out and give interfaces as rows from zero, as in reduce --interface hub=rows:0,1,2";
 
-/// How to go on where exact numbers were taken for rounded ones.
-pub(super) const STATE_EXACT: &str = "or say model.stiffness_digits = 17 in the job if its numbers are exact";
-
 /// How to go on where the digits of a stiffness may be misjudged either way.
 pub(super) const STATE_DIGITS: &str = "if its numbers have fewer digits than they are written with (7 in \
     single precision), or are exact (17), say so in model.stiffness_digits of the job";
-
-/// [`STATE_EXACT`] as one more piece of advice.
-pub(super) const FEW_DIGITS: &str =
-    ", or say model.stiffness_digits = 17 in the job if the numbers of the stiffness are exact";
 
 /// What the scene takes from an interface that reacts too little.
 pub(super) fn unloaded_reacts_nothing(unloaded: &[String]) -> String {
@@ -183,6 +176,56 @@ pub(super) fn kinetic_energy(relative: f64) -> String {
 /// How many files there are besides the one that is named.
 pub(super) fn and_more(n: usize) -> String {
     if n > 0 { format!(" (and {} like it)", counted(n as u64, "file", "files")) } else { String::new() }
+}
+
+/// Why the entries of a stiffness do not tell something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uncertain {
+    /// They have few digits.
+    Digits,
+    /// Its triangles differ, and no digits help.
+    Triangles,
+}
+
+impl Uncertain {
+    pub(super) fn subject(self) -> &'static str {
+        match self {
+            Self::Digits => "the digits of the stiffness do",
+            Self::Triangles => "the triangles of the stiffness differ, and do",
+        }
+    }
+
+    pub(super) fn expected(self) -> &'static str {
+        match self {
+            Self::Digits => "entries whose last digit does not decide that",
+            Self::Triangles => "triangles whose difference does not decide that",
+        }
+    }
+
+    pub(super) fn remedy(self) -> &'static str {
+        match self {
+            Self::Digits => {
+                "write the stiffness with more digits, best in binary, or say model.stiffness_digits = 17 in the job if its numbers are exact"
+            }
+            Self::Triangles => {
+                "correct the stiffness where its triangles differ, or say which of them holds with model.symmetric = \"lower\" or \"upper\" \
+                 (reduce --symmetric)"
+            }
+        }
+    }
+
+    /// What may be done besides where the digits may be all that is wrong.
+    pub(super) fn besides(cause: Option<Self>) -> &'static str {
+        match cause {
+            Some(Self::Digits) => {
+                ", or say model.stiffness_digits = 17 in the job if the numbers of the stiffness are exact"
+            }
+            Some(Self::Triangles) => {
+                ", or say which triangle of the stiffness holds with model.symmetric: they differ, and their mean may be no stiffness"
+            }
+            None => "",
+        }
+    }
 }
 
 /// What names of rows would be needed for.

@@ -7,12 +7,13 @@ use super::culprits::Grounded;
 use super::ends::{self, EndFace};
 use super::finding::{Finding, Severity};
 use super::interfaces::{self, Candidate};
+use super::patches::{self, SurfacePatch};
 use super::retreat::{Retreat, retreat};
 use super::sizes::{self, Sizes};
 use super::units::{self, UnitGuess, Units};
 use crate::dofs::Nodes;
 use crate::error::{Error, ErrorClass};
-use crate::input::InputFacts;
+use crate::input::{Face, InputFacts};
 use crate::job::Job;
 use crate::number::{counted, quantity};
 use crate::partition::Partition;
@@ -34,6 +35,7 @@ pub struct Examination {
     units: Units,
     interfaces: Vec<Candidate>,
     ends: Vec<EndFace>,
+    patches: Vec<SurfacePatch>,
     facts: Option<InputFacts>,
     /// The nodes of the job, whatever was left out since.
     given_nodes: Option<PathBuf>,
@@ -58,6 +60,8 @@ pub struct Examined {
     pub interfaces: Vec<Candidate>,
     /// Flat faces at the ends of its longest extent, where no group can be an interface.
     pub ends: Vec<EndFace>,
+    /// Holes and further flat faces of its outer surface, likewise.
+    pub patches: Vec<SurfacePatch>,
     /// The job that was examined last, with what stages had refused left out.
     pub job: Job,
     /// What the matrices are, where they could be read.
@@ -119,23 +123,49 @@ impl Examination {
         };
         let held = held_positions(partition, nodes);
         self.interfaces = nodes.map_or_else(Vec::new, |nodes| interfaces::candidates(partition, nodes, &held));
-        if !self.interfaces.iter().any(Candidate::holds_all) {
+        if self.lacks_interfaces() {
             self.ends = ends::end_faces(partition, &held);
         }
     }
 
+    /// Whether no group of the mesh can be an interface, so that its surface is worth a look.
+    pub fn lacks_interfaces(&self) -> bool {
+        !self.interfaces.iter().any(Candidate::holds_all)
+    }
+
+    /// Looks at the outer faces of the mesh.
+    pub fn look_at_surface(&mut self, partition: &Partition, nodes: &Nodes, faces: &[Face]) {
+        let held = held_positions(partition, Some(nodes));
+        let ends = std::mem::take(&mut self.ends);
+        (self.patches, self.ends) = patches::patches((partition, nodes), faces, &held, ends);
+    }
+
     /// Ends with what the lowest modes say of the model of a job, where no stage refused it.
     pub fn ended(self, job: Job, body: Option<ReportBody>) -> Examined {
-        let Self { mut findings, grounded, apart, n_massless, extents, units, interfaces, ends, facts, .. } = self;
+        let Self {
+            mut findings,
+            grounded,
+            apart,
+            n_massless,
+            extents,
+            units,
+            interfaces,
+            ends,
+            patches,
+            facts,
+            given_nodes,
+            ..
+        } = self;
         findings.extend(apart);
         let unit = units.only().map_or("", |guess| guess.stiffness);
         findings.extend(grounded.as_ref().and_then(|grounded| held(grounded, body.as_ref(), unit)));
         findings.extend(of_units(&units));
         if let Some(body) = &body {
             findings.extend(of_body(body));
+            findings.extend(map_unseen(&job).filter(|_| extents.is_none() && given_nodes.is_none()));
         }
         findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-        Examined { findings, grounded, n_massless, extents, units, interfaces, ends, job, facts, body }
+        Examined { findings, grounded, n_massless, extents, units, interfaces, ends, patches, job, facts, body }
     }
 }
 
@@ -179,6 +209,22 @@ fn apart(partition: &Partition) -> Option<Finding> {
         remedy: "take rows of conditions out of both matrices: with mass in them their frequencies are no modes of the component"
             .to_owned(),
         lines: Vec::new(),
+        went_on: None,
+    })
+}
+
+/// A dof map that nothing can be held against.
+fn map_unseen(job: &Job) -> Option<Finding> {
+    let map = job.model.dofs.as_ref()?;
+    Some(Finding {
+        severity: Severity::Remark,
+        code: None,
+        what: format!(
+            "without nodes a map that exchanges rows cannot be seen: {} has as many rows as the matrices, and that is all that is known of it",
+            map.display()
+        ),
+        remedy: "give the nodes, so that the stiffness is held against them row by row".to_owned(),
+        lines: vec!["--nodes MESH                # or nodes = \"MESH\" in [model] of the job".to_owned()],
         went_on: None,
     })
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::dofs::Direction;
-use crate::error::{Error, Warning};
+use crate::error::{Error, Uncertain, Warning};
 use crate::verification::catalogue;
 use crate::verification::check::Check;
 
@@ -119,7 +119,10 @@ fn lines_of(error: &Error) -> Vec<String> {
         Error::ConstraintGround { .. } => {
             &["constraints_to_ground = \"accept\" # [model] of the job, or --constraints-to-ground accept"]
         }
-        Error::DigitsTooFew { .. } => &["stiffness_digits = 17       # [model] of the job, if its numbers are exact"],
+        Error::DigitsTooFew { cause: Uncertain::Triangles, .. } => &ONE_TRIANGLE,
+        Error::DigitsTooFew { cause: Uncertain::Digits, .. } => {
+            &["stiffness_digits = 17       # [model] of the job, if its numbers are exact"]
+        }
         Error::RotationsHeld { directions, .. } => return vec![held_rotations(directions)],
         _ => &[],
     };
@@ -130,4 +133,25 @@ fn lines_of(error: &Error) -> Vec<String> {
 fn held_rotations(directions: &[Direction]) -> String {
     let names: Vec<String> = directions.iter().map(|direction| format!("\"{direction}\"")).collect();
     format!("held_rotations = [{}]     # [model] of the job, if supports do hold them", names.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sparse::{Differing, Rounding};
+
+    /// What is refused for its digits is mended by digits, and what is refused for triangles that differ is not.
+    #[test]
+    fn refusals_name_what_is_uncertain_and_what_helps() {
+        let of =
+            |rounding: Rounding| Finding::of_error(&rounding.too_uncertain("whether it is definite".to_owned()), None);
+        let triangles = of(Rounding::BINARY.of_differing(Differing { of_rows: 3e-4, at: [7, 2] }));
+        assert!(triangles.what.starts_with("the triangles of the stiffness differ, and do not tell"), "{triangles:?}");
+        assert!(triangles.what.contains("3e-4 of their rows, most at row 7, column 2"), "{triangles:?}");
+        assert!(triangles.lines.iter().any(|line| line.starts_with("symmetric = ")), "{triangles:?}");
+        assert!(!format!("{triangles:?}").contains("_digits"), "{triangles:?}");
+        let digits = of(Rounding::relative(5e-6));
+        assert!(digits.remedy.contains("stiffness_digits = 17") && digits.lines.len() == 1, "{digits:?}");
+        assert!(!format!("{digits:?}").contains("symmetric = "), "{digits:?}");
+    }
 }

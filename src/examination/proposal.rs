@@ -10,8 +10,9 @@ use super::ends::EndFace;
 use super::examined::Examined;
 use super::finding::Severity;
 use super::interfaces::Candidate;
+use super::patches::SurfacePatch;
 use super::text::{on_surface, units as in_words};
-use crate::job::{ConstraintsToGround, NodeSelection};
+use crate::job::{ConstraintsToGround, NodeSelection, Origin};
 use crate::number::{counted, quantity};
 use crate::report::printable;
 
@@ -130,9 +131,9 @@ impl Proposal<'_> {
         text
     }
 
-    /// Interfaces from the groups, or from the ends of the component; how many.
+    /// Interfaces from the groups, or from the surface and the ends of the component; how many.
     fn interfaces(&self, text: &mut String) -> usize {
-        let Examined { interfaces, ends, .. } = self.examined;
+        let Examined { interfaces, ends, patches, .. } = self.examined;
         let mut n_proposed = 0;
         for (candidate, why_not) in interfaces.iter().zip(choices(interfaces)) {
             let what =
@@ -145,13 +146,15 @@ impl Proposal<'_> {
                 }
             }
         }
+        patches.iter().for_each(|patch| *text += &of_patch(patch));
         ends.iter().for_each(|end| *text += &of_end(end));
-        if n_proposed + ends.len() == 0 {
+        let n_proposed = n_proposed + patches.len() + ends.len();
+        if n_proposed == 0 {
             *text += "\n# No interface: the superelement has modal amplitudes alone, and nothing can be joined to it. With a mesh that has\n\
                       # groups, `supel init K M --nodes MESH` proposes some; otherwise name nodes or rows:\n\
                       # [[interface]]\n# name = \"hub\"\n# nodes = [12, 17, 19]             # or { rows = [0, 1, 2] }\n";
         }
-        n_proposed + ends.len()
+        n_proposed
     }
 
     fn held(&self, text: &mut String) {
@@ -263,6 +266,34 @@ fn of_end(end: &EndFace) -> String {
     text += &selection(&NodeSelection::Region { within: end.region.clone() });
     text += &line("coupling", "rigid", "or \"average\", so that the patch stays free to deform");
     text
+}
+
+fn of_patch(patch: &SurfacePatch) -> String {
+    let what = counted(patch.n_nodes, "node", "nodes");
+    let mut text = format!("\n{}[[interface]]\n", comment(&format!("check: {}, {what}", patch.what)));
+    text += &line("name", patch.name.as_str(), "");
+    text += &match &patch.nodes {
+        NodeSelection::Labels(labels) => listed(labels),
+        nodes => selection(nodes),
+    };
+    text += &line("coupling", "rigid", "or \"average\", so that the patch stays free to deform");
+    if patch.origin != Origin::Centroid
+        && let Ok(origin) = Value::try_from(&patch.origin)
+    {
+        text += &line("origin", origin, "the interface node is on the axis");
+    }
+    text
+}
+
+/// Labels, some in a line.
+fn listed(labels: &[i64]) -> String {
+    /// Labels in a line.
+    const IN_LINE: usize = 12;
+    let lines = labels.chunks(IN_LINE).map(|labels| {
+        let labels: Vec<String> = labels.iter().map(ToString::to_string).collect();
+        format!("    {},\n", labels.join(", "))
+    });
+    format!("nodes = [\n{}]\n", lines.collect::<String>())
 }
 
 /// The next number of two digits.

@@ -210,7 +210,7 @@ pub fn few_digits(error: Error, analysis: &Analysis, stiffness: Leading<'_>, rou
         Ok(0) => {
             let what =
                 format!("whether it is definite with {held}: as it stands it is not, with other last digits it is");
-            Error::DigitsTooFew { what, known: rounding.in_words() }
+            rounding.too_uncertain(what)
         }
         _ => error,
     }

@@ -1,5 +1,6 @@
 //! Entries of bulk data of one name, each with its continuations: small, large and free fields.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use super::blocks::LastLine;
@@ -31,13 +32,20 @@ const FORMAT: &str = "Nastran bulk data";
 
 /// The last column of the fields; the eight behind it name the continuation.
 const END: usize = 72;
+/// Columns of a small field, and of what stands before and behind the fields of a line.
+const SMALL: usize = 8;
+/// Columns in which a comma makes a line one of free fields, as Nastran tells them.
+const FREE: usize = 10;
 
 /// The entries of bulk data of one name.
 pub(super) struct Cards<'a> {
+    path: &'a Path,
     lines: BulkLines<'a>,
     name: &'static str,
     /// The line that was read is the first one of the next entry, or of something else.
     is_ahead: bool,
+    /// The names that continuations of the deck have, once a line names one that does not follow.
+    named: Option<HashSet<Vec<u8>>>,
 }
 
 /// An entry with its fields, blanks cut off.
@@ -61,7 +69,7 @@ impl Card {
 
 impl<'a> Cards<'a> {
     pub(super) fn open(path: &'a Path, name: &'static str) -> Result<Self> {
-        Ok(Self { lines: BulkLines::open(path)?, name, is_ahead: false })
+        Ok(Self { path, lines: BulkLines::open(path)?, name, is_ahead: false, named: None })
     }
 
     /// The next entry of that name; none at the end of the deck.
@@ -91,9 +99,22 @@ impl<'a> Cards<'a> {
                 due = due.met_by(more.name, more.next, self.lines.place())?;
                 card.fields.extend(more.fields);
             }
-            due.check_nothing_is_promised()?;
+            self.check_nothing_is_elsewhere(&due)?;
             return Ok(Some(card));
         }
+    }
+
+    /// Refuses an entry that ends although its last line names a continuation that stands elsewhere in the deck. A name that no
+    /// continuation has says nothing, nor does one without a mark, which may be a number of the line or a word.
+    fn check_nothing_is_elsewhere(&mut self, due: &Due) -> Result<()> {
+        if !matches!(due.name.first(), Some(b'+' | b'*')) || own_name(&due.name).is_empty() {
+            return Ok(());
+        }
+        let named = match &mut self.named {
+            Some(named) => named,
+            none => none.insert(names_of_continuations(self.path)?),
+        };
+        if named.contains(&own_name(&due.name).to_ascii_uppercase()) { Err(due.missed()) } else { Ok(()) }
     }
 
     /// BLAKE3 of the deck, with what it includes, and whether the last line that was read is complete.
@@ -134,18 +155,22 @@ impl Due {
         ))
     }
 
-    /// Refuses an entry that ends although its last line names a continuation. Without a mark the tenth field is a number of the line or a word.
-    fn check_nothing_is_promised(&self) -> Result<()> {
-        if !matches!(self.name.first(), Some(b'+' | b'*')) || own_name(&self.name).is_empty() {
-            return Ok(());
-        }
-        let name = String::from_utf8_lossy(&self.name);
-        Err(out_of_order(
-            &self.place,
-            format!("no continuation {name:?} behind it"),
-            "the continuation that it names".to_owned(),
-        ))
+    /// The error of an entry that ends without it.
+    fn missed(&self) -> Error {
+        let found = format!("no continuation {:?} behind it", String::from_utf8_lossy(&self.name));
+        out_of_order(&self.place, found, "the continuation that it names, which stands elsewhere".to_owned())
     }
+}
+
+/// The names of all continuations of a deck, without their marks and in capital letters.
+fn names_of_continuations(path: &Path) -> Result<HashSet<Vec<u8>>> {
+    let mut lines = BulkLines::open(path)?;
+    let mut names = HashSet::new();
+    while lines.advance()? {
+        let name = continued_fields(lines.line()).map(|line| own_name(&line.name).to_ascii_uppercase());
+        names.extend(name.filter(|name| !name.is_empty()));
+    }
+    Ok(names)
 }
 
 /// The name of a continuation without its mark; empty where it has none.
@@ -164,25 +189,18 @@ fn first_fields(line: &[u8], name: &str) -> Option<Line> {
     let rest = line.get(name.len()..).filter(|_| line[..name.len()].eq_ignore_ascii_case(name.as_bytes()))?;
     let width = Width::of(rest.first());
     let mark = rest.strip_prefix(b"*").unwrap_or(rest);
-    match mark.first() {
-        Some(b',') => Some(free_line(line, width)),
-        Some(b' ' | b'\t') => Some(fixed_line(line, width)),
-        _ => None,
-    }
+    matches!(mark.first(), Some(b',' | b' ' | b'\t')).then(|| line_of(line, width))
 }
 
 /// The fields of a line that continues an entry; none where it does not.
 fn continued_fields(line: &[u8]) -> Option<Line> {
-    let first = *line.first()?;
-    let width = Width::of(Some(&first));
-    let mark_end = line.iter().position(|byte| *byte == b',');
-    match first {
-        _ if line.trim_ascii().is_empty() => None,
-        b',' => Some(free_line(line, Width::Small)),
-        b'+' | b'*' if mark_end.is_some_and(|at| at <= 8) => Some(free_line(line, width)),
-        b' ' | b'+' | b'*' | b'\t' => Some(fixed_line(line, width)),
-        _ => None,
-    }
+    let first = line.first().filter(|_| !line.trim_ascii().is_empty())?;
+    matches!(first, b',' | b' ' | b'+' | b'*' | b'\t').then(|| line_of(line, Width::of(Some(first))))
+}
+
+fn line_of(line: &[u8], width: Width) -> Line {
+    let is_free = line.iter().take(FREE).take_while(|byte| **byte != b'$').any(|byte| *byte == b',');
+    if is_free { free_line(line, width) } else { fixed_line(line, width) }
 }
 
 /// A line of fields between commas, filled up to a whole one.
@@ -197,19 +215,28 @@ fn free_line(text: &[u8], width: Width) -> Line {
 
 /// A line of fields of a fixed width between the first eight columns and the last.
 fn fixed_line(line: &[u8], width: Width) -> Line {
-    let (n, width) = (width.n_fields(), 64 / width.n_fields());
-    // A tab fills a field of eight columns.
-    let mut text = Vec::with_capacity(END + 8);
-    for &byte in line.iter().take(END + 8) {
+    let fixed = fixed_fields(line, width, SMALL);
+    // No field has a blank inside: such tabs go from one large field to the next.
+    let is_split = |field: &Vec<u8>| field.iter().any(u8::is_ascii_whitespace);
+    let is_by_fields = width == Width::Large && line.contains(&b'\t') && fixed.fields.iter().any(is_split);
+    if is_by_fields { fixed_fields(line, width, 2 * SMALL) } else { fixed }
+}
+
+/// The fields of a line in which a tab fills up to the next multiple of so many columns behind the first eight.
+fn fixed_fields(line: &[u8], width: Width, stop: usize) -> Line {
+    let (n, width) = (width.n_fields(), 8 * SMALL / width.n_fields());
+    let mut text = Vec::with_capacity(END + SMALL);
+    for &byte in line.iter().take(END + SMALL) {
         match byte {
-            b'\t' => text.resize((text.len() / 8 + 1) * 8, b' '),
+            b'\t' if text.len() < SMALL => text.resize(SMALL, b' '),
+            b'\t' => text.resize(SMALL + ((text.len() - SMALL) / stop + 1) * stop, b' '),
             byte => text.push(byte),
         }
     }
-    text.resize(END + 8, b' ');
+    text.resize(END + SMALL, b' ');
     let field = |from: usize, width: usize| text[from..from + width].trim_ascii().to_vec();
-    let fields = (0..n).map(|at| field(8 + at * width, width)).collect();
-    Line { name: field(0, 8), fields, next: field(END, 8) }
+    let fields = (0..n).map(|at| field(SMALL + at * width, width)).collect();
+    Line { name: field(0, SMALL), fields, next: field(END, SMALL) }
 }
 
 /// The error of a field.
@@ -244,8 +271,31 @@ mod tests {
         );
         assert_eq!(texts(continued_fields(b"+,2,1,4.5,,3,1,5.5")), ["2", "1", "4.5", "", "3", "1", "5.5", ""]);
         assert_eq!(texts(continued_fields(b",2,1,4.5")), ["2", "1", "4.5", "", "", "", "", ""]);
+        assert_eq!(texts(first_fields(b"DMIG  , k, 1", "DMIG"))[..3], ["k", "1", ""]);
+        assert_eq!(texts(continued_fields(b"        ,2,1,4.5"))[..3], ["2", "1", "4.5"]);
         assert!(continued_fields(b"GRID    1").is_none() && continued_fields(b"  ").is_none());
         assert!(first_fields(b"DMIGX   A", "DMIG").is_none() && first_fields(b"DMI", "DMIG").is_none());
+    }
+
+    /// A tab ends a field. In lines of large fields it goes to the next eight columns, or to the next field where fields had blanks inside
+    /// otherwise.
+    #[test]
+    fn tabs_end_fields() {
+        let small = ["KAAX", "1", "3", "", "1", "3", "2.5+3", ""];
+        for line in ["DMIG\tKAAX\t1\t3\t\t1\t3\t2.5+3\t\t+C1", "DMIG    KAAX\t       1       3\t1\t3\t2.5+3"] {
+            assert_eq!(texts(first_fields(line.as_bytes(), "DMIG")), small, "{line:?}");
+        }
+        assert_eq!(
+            first_fields(b"DMIG\tK\t1\t3\t\t1\t3\t2.\t\t+C1", "DMIG").map(|line| line.next),
+            Some(b"+C1".to_vec())
+        );
+        assert_eq!(texts(continued_fields(b"\t2\t1\t4.5\t\t3\t1\t5.5"))[..7], ["2", "1", "4.5", "", "3", "1", "5.5"]);
+        for line in ["DMIG*\tKAAX\t\t1\t\t3", "DMIG*\tKAAX\t1\t3"] {
+            assert_eq!(texts(first_fields(line.as_bytes(), "DMIG")), ["KAAX", "1", "3", ""], "{line:?}");
+        }
+        for line in ["*\t1\t\t3\t\t6.788227013D+06", "*C1\t1\t3\t6.788227013D+06"] {
+            assert_eq!(texts(continued_fields(line.as_bytes())), ["1", "3", "6.788227013D+06", ""], "{line:?}");
+        }
     }
 
     #[test]
@@ -273,10 +323,6 @@ mod tests {
         }
         for (due, name) in [("+A1", "+A2"), ("+A1", "*B"), ("A1", "+A2")] {
             assert!(!met(due, name), "{due:?} {name:?}");
-        }
-        for (name, is_promised) in [("+A1", true), ("*A1", true), ("+", false), ("", false), ("00000012", false)] {
-            let due = Due { name: name.into(), place: place.clone() };
-            assert_eq!(due.check_nothing_is_promised().is_err(), is_promised, "{name:?}");
         }
     }
 }

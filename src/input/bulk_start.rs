@@ -40,8 +40,8 @@ fn begins(line: &[u8]) -> bool {
     let is_one_of = |words: &[&str]| words.iter().any(|known| known.as_bytes() == word);
     let is_statement = || STATEMENTS.iter().any(|(known, mark)| known.as_bytes() == word && rest.contains(mark));
     match word {
-        b"SOL" => rest.first().is_some_and(|byte| matches!(byte, b' ' | b',')),
-        b"GRDSET" | b"DMIG" => rest.first().is_some_and(|byte| matches!(byte, b' ' | b',' | b'*')),
+        b"SOL" => rest.first().is_some_and(|byte| matches!(byte, b' ' | b'\t' | b',')),
+        b"GRDSET" | b"DMIG" => rest.first().is_some_and(|byte| matches!(byte, b' ' | b'\t' | b',' | b'*')),
         b"CEND" | b"SEBULK" | b"SECONCT" => true,
         _ if is_one_of(NUMBERED) => is_followed_by(rest, u8::is_ascii_digit),
         _ if is_one_of(NAMED) => is_followed_by(rest, u8::is_ascii_alphabetic) && has_value(rest),
@@ -99,6 +99,10 @@ mod tests {
             "GRID*                  1\n",
             "CORD2R  1\n",
             "GRDSET,,,,,,,456\n",
+            "DMIG\tKAAX\t0\t6\t2\n",
+            "SOL\t103\n",
+            "GRDSET\t\t\t\t\t\t456\n",
+            "USET\tU1\t1\t123\n",
             "$ only\n$ comments\n",
         ] {
             assert!(is_of_nastran(text), "{text}");

@@ -1,9 +1,9 @@
 //! Numbers and fields as Fortran writes them.
 
+use super::fortran_format::NumberLine;
+
 /// The longest number.
 const MAX_NUMBER: usize = 64;
-/// The largest power of ten that a format scales by: a double has no more.
-const MAX_SCALE: i32 = 308;
 
 /// A real number: also one whose exponent is marked by D, or by its sign alone as in `1.5-101` and `7.-3`.
 pub(super) fn real(field: &[u8]) -> Option<f64> {
@@ -89,6 +89,10 @@ pub(super) fn whole(field: &[u8]) -> Option<i64> {
 pub(super) struct Fields {
     pub(super) per_line: usize,
     pub(super) width: usize,
+    /// Blanks before the first field.
+    pub(super) before: usize,
+    /// Blanks between two fields.
+    pub(super) between: usize,
     /// Digits behind the point of a number that is written without one; none in a format of whole numbers.
     pub(super) decimals: i32,
     /// Power of ten by which a number without an exponent is written too large.
@@ -98,29 +102,18 @@ pub(super) struct Fields {
 impl Fields {
     /// The fields of a format, with or without brackets and a scale.
     pub(super) fn of(format: &[u8]) -> Option<Self> {
-        let text = std::str::from_utf8(format).ok()?.trim().trim_start_matches('(').to_ascii_uppercase();
-        let text = text.trim_start();
-        let (scale, text) = match text.split_once('P') {
-            Some((scale, rest)) if scale.trim_start_matches('-').bytes().all(|byte| byte.is_ascii_digit()) => {
-                (scale.parse().unwrap_or(0), rest)
-            }
-            _ => (0, text),
-        };
-        let text = text.trim_start_matches([',', ' ']);
-        let letter = text.find(['I', 'E', 'D', 'F', 'G'])?;
-        let per_line = if letter == 0 { 1 } else { text[..letter].trim().parse().ok()? };
-        // `ES` and `EN` are exponents of other looks.
-        let rest = text[letter + 1..].trim_start_matches(['S', 'N']);
-        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-        let width: usize = rest[..end].parse().ok()?;
-        let behind = rest[end..].strip_prefix('.').unwrap_or_default();
-        let n_digits = behind.find(|c: char| !c.is_ascii_digit()).unwrap_or(behind.len());
-        let decimals = if text[letter..].starts_with('I') { 0 } else { behind[..n_digits].parse().unwrap_or(0) };
-        let is_sound = (1..=4096).contains(&per_line)
-            && (1..MAX_NUMBER).contains(&width)
-            && (0..MAX_NUMBER as i32).contains(&decimals)
-            && (-MAX_SCALE..=MAX_SCALE).contains(&scale);
-        is_sound.then_some(Self { per_line, width, decimals, scale })
+        let NumberLine { per_line, first, pitch, edit, scale } = NumberLine::of(std::str::from_utf8(format).ok()?)?;
+        let (width, decimals) = (edit.width, edit.decimals as i32);
+        Some(Self { per_line, width, before: first, between: pitch - width, decimals, scale })
+    }
+
+    /// The column behind the first n fields of a line.
+    pub(super) fn end(self, n: usize) -> usize {
+        self.start(n.saturating_sub(1)) + self.width
+    }
+
+    fn start(self, at: usize) -> usize {
+        self.before + at * (self.width + self.between)
     }
 
     /// The number in a field as Fortran reads it: without a point, the last digits before the exponent are decimals; without an
@@ -149,7 +142,7 @@ impl Fields {
 
     /// The field at a place of a line; nothing beyond its end.
     pub(super) fn field(self, line: &[u8], at: usize) -> &[u8] {
-        let start = (at * self.width).min(line.len());
+        let start = self.start(at).min(line.len());
         &line[start..(start + self.width).min(line.len())]
     }
 }
@@ -209,7 +202,8 @@ mod tests {
             ("5e16.9", 5, 16, 9, 0),
             ("(3ES23.15)", 3, 23, 15, 0),
         ] {
-            assert_eq!(Fields::of(text.as_bytes()), Some(Fields { per_line, width, decimals, scale }), "{text}");
+            let fields = Fields { per_line, width, before: 0, between: 0, decimals, scale };
+            assert_eq!(Fields::of(text.as_bytes()), Some(fields), "{text}");
         }
         for text in ["", "(A80)", "(0I5)", "(3E)", "(99999999999999999999I5)", "(2E999)"] {
             assert_eq!(Fields::of(text.as_bytes()), None, "{text}");

@@ -149,14 +149,24 @@ fn numbers(line: &[u8]) -> Vec<i64> {
     line.split(u8::is_ascii_whitespace).filter(|field| !field.is_empty()).map_while(whole).collect()
 }
 
-/// The fields of pointers, indices and values. Their formats stand in columns, or between blanks.
+/// The fields of pointers, indices and values. Their formats stand in columns, or one behind the other.
 fn formats(line: &[u8]) -> Option<[Fields; 3]> {
     let column = |range: std::ops::Range<usize>| line.get(range.start..range.end.min(line.len())).and_then(Fields::of);
     let in_columns = || Some([column(0..16)?, column(16..32)?, column(32..52)?]);
-    let mut words = line.split(|byte| *byte == b')').map(Fields::of);
+    let mut words = bracketed(line).into_iter().map(Fields::of);
     let mut word = || words.next().flatten();
     let begins = line.trim_ascii_start().starts_with(b"(");
     in_columns().or_else(|| Some([word()?, word()?, word()?])).filter(|_| begins)
+}
+
+/// The parts of a line up to each bracket that closes all before it.
+fn bracketed(line: &[u8]) -> Vec<&[u8]> {
+    let mut depth = 0i32;
+    let is_end = |byte: &u8| {
+        depth += i32::from(*byte == b'(') - i32::from(*byte == b')');
+        *byte == b')' && depth <= 0
+    };
+    line.split_inclusive(is_end).collect()
 }
 
 /// Hands the fields of the next n numbers to `take`, which says whether a field holds one.
@@ -172,14 +182,14 @@ fn read(
         let line = lines.line();
         let n_fields = left.min(fields.per_line as u64) as usize;
         // Without an end of the line nothing tells whether its last number is whole.
-        if lines.is_open() && line.len() < fields.width * n_fields {
+        if lines.is_open() && line.len() < fields.end(n_fields) {
             return Err(wrong(
                 lines,
                 &format!("{expected} up to the end of its field, or the end of the line behind it"),
             ));
         }
         let words: Vec<&[u8]> = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
-        let rest = line.get(n_fields * fields.width..).unwrap_or_default();
+        let rest = line.get(fields.end(n_fields)..).unwrap_or_default();
         if words.len() != n_fields && !rest.trim_ascii().is_empty() {
             return Err(wrong(lines, &format!("{expected} in each of {n_fields} fields, and nothing behind them")));
         }

@@ -3,7 +3,7 @@
 use super::finding_words as words;
 use crate::dofs::{AxisDigits, Direction, RoundedAxes, RowNames};
 use crate::number::counted;
-use crate::sparse::Rounding;
+use crate::sparse::{Differing, Rounding};
 
 /// Above this share of the largest entry in asymmetry a finding becomes a warning; below it the asymmetry is rounding of the producer.
 pub const ASYMMETRY_WARN: f64 = 1e-12;
@@ -20,6 +20,10 @@ pub enum Finding {
         of_largest: f64,
         /// The largest |A_ij − A_ji| / √(A_ii A_jj).
         of_rows: f64,
+        /// |A_ij − A_ji| of this one.
+        difference: f64,
+        /// Its row and column in the file, from one.
+        at: [usize; 2],
     },
     /// Rows without mass: their frequencies are infinite and are never returned.
     MasslessRows {
@@ -195,7 +199,12 @@ impl Finding {
     /// How well entries are known by this finding: each of two triangles that differ may be the right one.
     pub(super) fn known_by(&self, rounding: Rounding) -> Rounding {
         match self {
-            Self::Symmetrised { of_rows, .. } if self.warning().is_some() => rounding.of_parts(0.5 * of_rows),
+            Self::Symmetrised { of_rows, difference, at, .. } if self.warning().is_some() => {
+                // Two roundings of one number are no more than a unit of its last digit apart.
+                let is_of_digits = *of_rows <= 2.0 * rounding.relative || *difference <= 2.0 * rounding.absolute;
+                let differing = Differing { of_rows: *of_rows, at: *at };
+                if is_of_digits { rounding.of_parts(0.5 * of_rows) } else { rounding.of_differing(differing) }
+            }
             _ => rounding,
         }
     }
@@ -228,10 +237,11 @@ impl Finding {
 impl std::fmt::Display for Finding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Symmetrised { matrix, of_rows, .. } => {
+            Self::Symmetrised { matrix, of_rows, at: [row, col], .. } => {
                 write!(
                     f,
-                    "the {matrix} matrix was symmetric to {of_rows:.1e} of its rows only and was replaced by its symmetric part"
+                    "the {matrix} matrix was symmetric to {of_rows:.1e} of its rows only, at row {row}, column {col}, and was replaced by its \
+                     symmetric part"
                 )
             }
             Self::MasslessRows { n_rows } => write!(f, "{} no mass: their frequencies are infinite", counted(*n_rows, "row has", "rows have")),

@@ -269,8 +269,10 @@ fn symmetrised(name: &'static str, input: MatrixInput, names: RowNames<'_>) -> R
         let Asymmetry { of_rows: asymmetry, of_largest, unpaired, .. } = asymmetry;
         return Err(Error::Unsymmetric { matrix: name, asymmetry, of_largest, place, unpaired });
     }
-    let Asymmetry { of_largest, of_rows, .. } = asymmetry;
-    Ok((matrix, (of_rows > 0.0).then_some(Finding::Symmetrised { matrix: name, of_largest, of_rows })))
+    let Asymmetry { of_largest, of_rows, difference, worst: (row, col), .. } = asymmetry;
+    let at = [row, col].map(|row| names.number(row));
+    let finding = Finding::Symmetrised { matrix: name, of_largest, of_rows, difference, at };
+    Ok((matrix, (of_rows > 0.0).then_some(finding)))
 }
 
 /// Refuses diagonals that no structure has. Rows that constraints tie to others (`tied`, ascending) need neither stiffness nor mass.

@@ -13,7 +13,9 @@ pub struct Asymmetry {
     pub of_largest: f64,
     /// The largest |A_ij − A_ji| / √(A_ii A_jj): a stiff row hides nothing of a soft one.
     pub of_rows: f64,
-    /// Row and column of this one.
+    /// |A_ij − A_ji| of this one.
+    pub difference: f64,
+    /// Its row and column.
     pub worst: (usize, usize),
     /// Entries below and above the diagonal that have none at their mirror image.
     pub unpaired: [usize; 2],
@@ -24,7 +26,7 @@ pub struct Asymmetry {
 /// A position stored on one side only counts as zero on the other and is given to both.
 pub fn make_symmetric(matrix: &mut SparseMatrix) -> Asymmetry {
     if is_symmetric(matrix) {
-        return Asymmetry { of_largest: 0.0, of_rows: 0.0, worst: (0, 0), unpaired: [0, 0] };
+        return Asymmetry { of_largest: 0.0, of_rows: 0.0, difference: 0.0, worst: (0, 0), unpaired: [0, 0] };
     }
     let mut differences = Differences::of(matrix);
     let mut unpaired = [0, 0];
@@ -34,8 +36,9 @@ pub fn make_symmetric(matrix: &mut SparseMatrix) -> Asymmetry {
         unpaired = n_unpaired(&transposed);
         one_sided_differences(matrix, &transposed, &mut differences);
     }
-    let Differences { largest, most, of_rows, worst, .. } = differences;
-    Asymmetry { of_largest: if largest > 0.0 { most / largest } else { 0.0 }, of_rows, worst, unpaired }
+    let Differences { largest, most, of_rows, of_worst, worst, .. } = differences;
+    let of_largest = if largest > 0.0 { most / largest } else { 0.0 };
+    Asymmetry { of_largest, of_rows, difference: of_worst, worst, unpaired }
 }
 
 /// Share of the largest entry below which a diagonal entry tells no size of its row: what rounding leaves of massless rows.
@@ -51,6 +54,8 @@ struct Differences {
     most: f64,
     /// The largest relative to its rows, and where.
     of_rows: f64,
+    /// That one itself.
+    of_worst: f64,
     worst: (usize, usize),
 }
 
@@ -58,14 +63,14 @@ impl Differences {
     fn of(matrix: &SparseMatrix) -> Self {
         let largest = matrix.data().iter().fold(0.0f64, |max, value| max.max(value.abs()));
         let sizes = diagonal(matrix).into_iter().map(|value| value.abs().max(NO_SIZE * largest).sqrt()).collect();
-        Self { largest, sizes, most: 0.0, of_rows: 0.0, worst: (0, 0) }
+        Self { largest, sizes, most: 0.0, of_rows: 0.0, of_worst: 0.0, worst: (0, 0) }
     }
 
     fn add(&mut self, difference: f64, (row, col): (usize, usize)) {
         self.most = self.most.max(difference);
         let of_rows = difference / (self.sizes[row] * self.sizes[col]);
         if of_rows > self.of_rows {
-            (self.of_rows, self.worst) = (of_rows, (row, col));
+            (self.of_rows, self.of_worst, self.worst) = (of_rows, difference, (row, col));
         }
     }
 }
@@ -228,7 +233,7 @@ mod tests {
         let mut a = matrix(&[(0, 0, 2.0), (0, 1, 1.0), (1, 0, 0.5), (1, 1, 3.0), (2, 2, 4.0)]);
         let found = make_symmetric(&mut a);
         let of_rows = 0.5 / (2f64.sqrt() * 3f64.sqrt());
-        assert_eq!(found, Asymmetry { of_largest: 0.125, of_rows, worst: (1, 0), unpaired: [0, 0] });
+        assert_eq!(found, Asymmetry { of_largest: 0.125, of_rows, difference: 0.5, worst: (1, 0), unpaired: [0, 0] });
         assert_eq!((a.get(0, 1), a.get(1, 0)), (Some(&0.75), Some(&0.75)));
     }
 

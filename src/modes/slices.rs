@@ -279,7 +279,7 @@ fn below_zero(problem: &BoundaryProblem<'_>, modes: &Modes) -> Option<Error> {
     let what = || format!("whether {} free", counted(count, "mode below zero is", "modes below zero are"));
     match (count, partition.has_few_digits()) {
         (0, _) => None,
-        (_, true) => Some(Error::DigitsTooFew { what: what(), known: partition.precision.stiffness.in_words() }),
+        (_, true) => Some(partition.precision.stiffness.too_uncertain(what())),
         // What is unstable with some dofs held is so with none.
         (count, false) => Some(Error::IndefiniteStiffness { count, boundary: "free" }),
     }
@@ -298,7 +298,7 @@ pub(super) fn missing(problem: &BoundaryProblem<'_>, modes: &Modes, upper: Elast
     if found > counted && partition.has_few_digits() {
         let what =
             format!("how many modes lie below {below_hz:.6} Hz: {found} were found, and a Sturm count says {counted}");
-        return Error::DigitsTooFew { what, known: partition.precision.stiffness.in_words() };
+        return partition.precision.stiffness.too_uncertain(what);
     }
     Error::ModesMissing { below_hz, found, counted }
 }

@@ -188,12 +188,15 @@ pub(super) fn data_precision(results: &Results<'_>) -> Option<Warning> {
     if is_named(results, "W-FRAME-DIGITS") {
         return None;
     }
-    if is_named(results, "W-UNSYMMETRIC") {
+    let precision = results.evidence.partition.precision;
+    let differing = [("stiffness", precision.stiffness), ("mass", precision.mass)];
+    let mut differing = differing.into_iter().filter_map(|(name, rounding)| Some((name, rounding.differing?)));
+    if let Some((name, differing)) = differing.next() {
         return Some(Warning {
             code: "W-DATA-PRECISION",
             message: format!(
-                "the triangles of a matrix differ (W-UNSYMMETRIC), and which of them is right leaves {} less certain than {WANTED:.0e}, \
-                 {first}; correct the matrix, or say which triangle holds with model.symmetric",
+                "the triangles of the {name} differ by {differing} (W-UNSYMMETRIC), and which of them is right leaves {} less certain than \
+                 {WANTED:.0e}, {first}; correct the matrix, or say which triangle holds with model.symmetric",
                 counted(uncertain.len(), "frequency", "frequencies")
             ),
         });

@@ -79,5 +79,6 @@ pub use partition::{LARGEST_INTERFACE, Partition};
 pub use problem::EntriesAt;
 pub use quantities::{ModelQuantities, Quantities, quantities};
 pub use reference_node::reference_nodes;
+pub(crate) use region::contains;
 pub use transformation::{DofOrigin, ReducedDof, Transformation};
 pub use transformation_row::TransformationRow;

@@ -32,6 +32,7 @@ use rayon::prelude::*;
 use super::partition::Partition;
 use super::roundings::{Entry, Roundings};
 use crate::dense;
+use crate::error::Uncertain;
 use crate::sparse::{Leading, Rounding, absolute_product};
 
 /// p: the chance that roundings of one matrix make more of the energy of one motion than is said.
@@ -104,6 +105,12 @@ impl Partition {
     /// Whether the entries of K were rounded to fewer digits than double precision has.
     pub fn has_few_digits(&self) -> bool {
         self.precision.stiffness.is_coarse()
+    }
+
+    /// Why the entries of K are known to less than double precision; none where they are not.
+    pub fn uncertain(&self) -> Option<Uncertain> {
+        let cause = if self.precision.stiffness.differing.is_some() { Uncertain::Triangles } else { Uncertain::Digits };
+        self.has_few_digits().then_some(cause)
     }
 
     fn panel_noise(&self, (roundings, rounding, unit): (&Roundings, Rounding, f64), x: MatRef<'_, f64>) -> Vec<f64> {

@@ -4,7 +4,7 @@ use crate::dofs::unit;
 use crate::job::Region;
 
 /// True where the point lies in the region or on its border.
-pub(super) fn contains(region: &Region, point: [f64; 3]) -> bool {
+pub(crate) fn contains(region: &Region, point: [f64; 3]) -> bool {
     match region {
         Region::Box { min, max } => (0..3).all(|axis| min[axis] <= point[axis] && point[axis] <= max[axis]),
         Region::Plane { point: origin, normal, tolerance } => {

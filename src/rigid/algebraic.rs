@@ -142,7 +142,7 @@ pub(crate) fn refuse_uncounted(rounding: Rounding, n_zero: usize, bar: f64) -> R
         "how many motions cost no energy: {n_zero} seem to, and with the frequency of the next known to {known:.0e} of itself \
          elastic ones may be among them"
     );
-    Err(Error::DigitsTooFew { what, known: rounding.in_words() })
+    Err(rounding.too_uncertain(what))
 }
 
 /// The error where no motion of the interface is left whose energy the digits tell from none.
@@ -151,7 +151,7 @@ pub(crate) fn lost_interface(rounding: Rounding, n_zero: usize) -> Error {
         "how many motions cost no energy: {n_zero} seem to, and these are all that the interface can do, so that nothing is left of its \
          stiffness"
     );
-    Error::DigitsTooFew { what, known: rounding.in_words() }
+    rounding.too_uncertain(what)
 }
 
 /// The zero modes after a step of inverse iteration, which takes what rounding of the eigensolver left of an elastic motion

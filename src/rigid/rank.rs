@@ -97,9 +97,15 @@ fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) ->
                 "; the weakest {ratio:.1e} times as well as the strongest, which the digits of the stiffness do not tell from not at all"
             );
         }
-        let (has_coordinates, has_few_digits) = (partition.sites().is_some(), partition.has_few_digits());
-        let unloaded = Vec::new();
-        return Err(Error::InterfaceRank { rank, n_rigid: n_r, motion, has_coordinates, has_few_digits, unloaded });
+        let (has_coordinates, uncertain) = (partition.sites().is_some(), partition.uncertain());
+        return Err(Error::InterfaceRank {
+            rank,
+            n_rigid: n_r,
+            motion,
+            has_coordinates,
+            uncertain,
+            unloaded: Vec::new(),
+        });
     }
     Ok(InterfaceRank { singular_ratio: singular[n_r - 1] / largest })
 }

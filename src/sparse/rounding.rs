@@ -13,10 +13,20 @@ use faer::{Mat, MatRef};
 use super::leading::Leading;
 use super::product::absolute_product;
 use super::turning::TurnedRoundings;
+use crate::error::{Error, Uncertain};
 
 /// Share of its own size that half a unit of the last digit is at least, in units of that of the smallest number of as many digits:
 /// single precision counts as seven digits, and is coarser than these where the first of them is a nine.
 const LEAST_SHARE: f64 = 1.0 / 8.0;
+
+/// Triangles of a matrix that differ beyond its digits: where they do most, and by how much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Differing {
+    /// |A_ij − A_ji| / √(A_ii A_jj).
+    pub of_rows: f64,
+    /// Row and column of that in the file, from one.
+    pub at: [usize; 2],
+}
 
 /// Bounds on the roundings of the entries of a matrix, in its own units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +42,8 @@ pub struct Rounding {
     /// The largest share that the roundings of a row can have in its sum of moduli: `relative` where nothing is absolute. For where one
     /// number has to stand for the matrix.
     pub share: f64,
+    /// Why entries are known no better, where it is not for their digits.
+    pub differing: Option<Differing>,
 }
 
 impl Rounding {
@@ -40,7 +52,7 @@ impl Rounding {
 
     /// Of entries that were rounded to a share of themselves.
     pub const fn relative(relative: f64) -> Self {
-        Self { relative, absolute: 0.0, is_of_parts: false, n_alike: f64::INFINITY, share: relative }
+        Self { relative, absolute: 0.0, is_of_parts: false, n_alike: f64::INFINITY, share: relative, differing: None }
     }
 
     /// With `share` as this matrix has it. Rows without entries do not count, and no row is more than uncertain.
@@ -74,6 +86,18 @@ impl Rounding {
     pub fn of_parts(self, share: f64) -> Self {
         let relative = self.relative.max(share);
         Self { relative, share: relative, is_of_parts: true, n_alike: f64::INFINITY, ..self }
+    }
+
+    /// With entries that are known no better than two triangles agree.
+    #[must_use]
+    pub fn of_differing(self, differing: Differing) -> Self {
+        Self { differing: Some(differing), ..self.of_parts(0.5 * differing.of_rows) }
+    }
+
+    /// The error of what the entries do not tell.
+    pub fn too_uncertain(self, what: String) -> Error {
+        let cause = if self.differing.is_some() { Uncertain::Triangles } else { Uncertain::Digits };
+        Error::DigitsTooFew { cause, what, known: self.in_words() }
     }
 
     /// Whether the entries were rounded to fewer digits than double precision has.
@@ -127,7 +151,9 @@ impl Rounding {
     /// How well entries are known, as an error message has it.
     pub fn in_words(self) -> String {
         let Self { relative, share, .. } = self;
-        if self.absolute > 0.0 {
+        if let Some(differing) = self.differing {
+            format!("they differ by {differing}, and either may be right")
+        } else if self.absolute > 0.0 {
             format!(
                 "its entries have a fixed count of decimals, which leaves up to {share:.0e} of the sum of a row open"
             )
@@ -136,6 +162,13 @@ impl Rounding {
         } else {
             format!("its entries are known to {relative:.0e} of themselves")
         }
+    }
+}
+
+impl std::fmt::Display for Differing {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { of_rows, at: [row, col] } = self;
+        write!(f, "{of_rows:.0e} of their rows, most at row {row}, column {col}")
     }
 }
 

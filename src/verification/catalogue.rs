@@ -263,8 +263,12 @@ pub const CATALOGUE: &[Entry] = &[
         "M-08",
         Proof::Estimated,
         Recorded::Sometimes,
-        "Angle between each computed shape and the exact one, from the left-over force and the distance to the next \
-         frequency. Near neighbours make shapes uncertain although their frequencies are not.",
+        "Angle between each computed shape and the exact one, in the energy of K − σM, from the left-over force and the distance to the next \
+         frequency. Near neighbours make shapes uncertain although their frequencies are not. For a shape x of another program, with \
+         r = Kx − ρMx, it is δ/γ: δ² = rᵀ(K − σM)⁻¹r / ((ρ − σ) xᵀMx), and γ the relative distance of ρ − σ to that of the nearest other \
+         mode; or, where that is smaller and all modes below some frequency are known, √(Σ a_k² (λ_k − σ)/(ρ − σ)) + δ_⊥/γ_⊥ √(1 + (δ/γ)²): \
+         a_k = ŷ_kᵀMx is what the shape has of each other known mode, δ_⊥ what is left of δ outside of all of them, and γ_⊥ the relative \
+         distance to the modes above them. Of a shape of few digits √(Σ a_k²), which their rounding changes less, is judged by itself, too.",
         "Judge the group of neighbouring modes together: the plane they span is certain, the shapes in it are not.",
     ),
     line(

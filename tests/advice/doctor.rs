@@ -289,11 +289,28 @@ fn advice_for_uncertain_frequencies_is_that_which_helps() {
     place.write("K.mtx", text.as_bytes());
     let told = finding(&examined(&place, ALL, ExitCode::Done), "W-DATA-PRECISION");
     assert!(told.contains("symmetric = ") && !told.contains("_digits"), "{told}");
+    let (row, col, _) = model.stiffness[first];
+    let [a, b] = [row.max(col) + 1, row.min(col) + 1];
+    for part in ["the triangles of the stiffness differ by".to_owned(), format!("most at row {a}, column {b}")] {
+        assert!(told.contains(&part), "{part}: {told}");
+    }
     // Of matrices one of which has all digits, the other one is named.
     let place = Place::with(&Model { mass: steel_brick().mass, ..rounded(&steel_brick(), 4) });
     let found = serde_json::from_str(&doctor(&place, &format!("{ALL} --json")).out).expect("JSON");
     let told = finding(&found, "W-DATA-PRECISION");
     assert!(told.contains("stiffness_digits = 17") && !told.contains("mass_digits"), "{told}");
+}
+
+/// A map in another order fits the count of rows as well: what could tell is asked for.
+#[test]
+fn a_map_without_nodes_is_said_to_be_unseen() {
+    const SAID: &str = "without nodes a map that exchanges rows cannot be seen";
+    let place = Place::with(&steel_brick());
+    let says = |rest: &str| examined(&place, rest, ExitCode::Done)["findings"].to_string().contains(SAID);
+    assert!(says("K.mtx M.mtx --dofs dofs.txt"));
+    assert!(!says(ALL) && !says("K.mtx M.mtx"));
+    let page = doctor(&place, "K.mtx M.mtx --dofs dofs.txt").expect(ExitCode::Done).out;
+    assert!(page.split_whitespace().collect::<Vec<_>>().join(" ").contains(SAID), "{page}");
 }
 
 #[test]

@@ -166,6 +166,48 @@ fn ends_that_are_edges_are_no_faces() {
     reduced(&place, ALL);
 }
 
+/// A mesh of cells without groups has its holes proposed, each with its axis, and the faces that share no node with them.
+#[test]
+fn holes_and_faces_of_a_mesh_without_groups() {
+    let mesh = supel_models::bracket_mesh();
+    let place = Place::with(&mesh.assemble(&Material::STEEL_MM_T_S));
+    place.write("mesh.inp", cells(&mesh).as_bytes());
+    let files = "K.mtx M.mtx --dofs dofs.txt --nodes mesh.inp";
+    let (job, text) = proposed(&place, files);
+    let holes: Vec<_> = job.interfaces.iter().filter(|interface| interface.name.starts_with("hole-")).collect();
+    assert_eq!(holes.len(), 5, "{text}");
+    assert!(job.interfaces.len() <= 8 && text.contains("check: a hole of radius 18 about"), "{text}");
+    assert!(holes.iter().all(|hole| hole.origin == supel::job::Origin::Hole && hole.coupling == Coupling::Rigid));
+    let report = reduced(&place, files);
+    let interfaces = report["body"]["reduction"]["interfaces"].as_array().expect("interfaces");
+    let count = |name: &str| {
+        let found = interfaces.iter().find(|interface| interface["name"] == name).expect(name);
+        found["n_nodes"].as_u64().expect("a count") as usize
+    };
+    // The nodes of the bore, and of no more.
+    let eye = mesh.groups["EYE"].len();
+    assert_eq!(count("hole-1"), eye, "{text}");
+    // A held node takes its hole out.
+    let held = mesh.groups["EYE"][0] + 1;
+    let (job, text) = proposed(&place, &format!("{files} --fix a={held}"));
+    let holes = job.interfaces.iter().filter(|interface| interface.name.starts_with("hole-"));
+    assert_eq!(holes.count(), 4, "{text}");
+}
+
+/// A mesh of hexahedra as a deck without sets.
+fn cells(mesh: &supel_models::HexMesh) -> String {
+    let mut text = "*NODE\n".to_owned();
+    for (node, [x, y, z]) in mesh.nodes.iter().enumerate() {
+        text += &format!("{}, {x:?}, {y:?}, {z:?}\n", node + 1);
+    }
+    text += "*ELEMENT, TYPE=C3D8\n";
+    for (element, nodes) in mesh.elements.iter().enumerate() {
+        let nodes: Vec<String> = nodes.iter().map(|node| (node + 1).to_string()).collect();
+        text += &format!("{}, {}\n", element + 1, nodes.join(", "));
+    }
+    text
+}
+
 /// A node that is held in some directions has rows in the others.
 #[test]
 fn groups_that_are_partly_held_have_the_other_dofs() {

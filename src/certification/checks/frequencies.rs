@@ -1,8 +1,9 @@
 //! Frequencies, and what digits and springs make of them.
 
 use super::subject::{OfPair, Subject, worst};
-use crate::certification::judgement::{MOST_OF_DIGITS, NOT_RIGID, of_digits_in_energy, of_digits_in_frequency};
+use crate::certification::judgement::NOT_RIGID;
 use crate::certification::pair::{Off, PairKind};
+use crate::certification::rounding::{MOST_OF_DIGITS, of_digits_in_energy, of_digits_in_frequency};
 use crate::eigen::NOTICED_BAR;
 use crate::modes::Component;
 use crate::number::{quantity, scientific};
@@ -82,8 +83,16 @@ impl Subject<'_> {
         let mode = pair.mode_hz.unwrap_or(pair.shape_hz);
         let difference = pair.stated_hz.map_or(0.0, |stated| (stated / mode - 1.0).abs());
         // The frequency of a pair that is another mode than its quotient says is known without its own bar.
-        let bar = if mode == pair.shape_hz { 0.5 * self.judged.residual_bars[claim] } else { 0.0 };
-        let own = (pair.shape_hz / mode - 1.0).abs();
+        let bar = match mode == pair.shape_hz {
+            // Rounding is spread over modes far away: what it has of near ones is bounded, and moves the quotient by no more than δ².
+            true if self.judged.is_rounded[claim] => {
+                0.5 * self.judged.residual_bars[claim].min(self.measured.lacking[claim].powi(2))
+            }
+            true => 0.5 * self.judged.residual_bars[claim],
+            false => 0.0,
+        };
+        // A shape that is a mode but for its rounding has the frequency of that, whatever its own quotient is.
+        let own = if self.judged.is_rounded[claim] { 0.0 } else { (pair.shape_hz / mode - 1.0).abs() };
         // Rounding of λ is twice that of its root; of a frequency it is what it is, and that of a shape acts by its square. What the
         // matrices leave open is no fault of the result: M-09 judges it.
         let data = self.claims.value_rounding[claim]
@@ -125,7 +134,10 @@ impl Subject<'_> {
         let of_pair = |claim: usize| {
             let data = of_digits_in_energy(self.measured, claim, first);
             let limits = Limits { engineering: RIGID_ENERGY, arithmetic: 0.0, data }.capped(0.0, MOST_OF_DIGITS);
-            OfPair { claim, value: stated(claim).abs() / first, limits, fail_above: NOT_RIGID.max(limits.data) }
+            // Where nothing is stated, the energy of a rounded shape is that of its rounding.
+            let is_unsaid = self.claims.lambda.is_none() && self.judged.is_rounded[claim];
+            let value = if is_unsaid { 0.0 } else { stated(claim).abs() / first };
+            OfPair { claim, value, limits, fail_above: NOT_RIGID.max(limits.data) }
         };
         let found = OfPair::worst(rigid.into_iter().map(of_pair))?;
         Some(Check {

@@ -5,7 +5,7 @@ use crate::certification::judgement::Judged;
 use crate::certification::pair::{JudgedPair, PairKind};
 use crate::eigen::NOTICED_BAR;
 use crate::modes::Component;
-use crate::number::{counted, quantity};
+use crate::number::{counted, quantity, scientific};
 use crate::verification::check::{ActiveLimit, Check, Verdict};
 
 /// What is said besides the checks, one sentence each.
@@ -46,12 +46,15 @@ fn few_digits(claims: &Claims, checks: &[Check]) -> Option<String> {
         OF_SHAPES.contains(&check.id) && check.verdict() == Verdict::Warn && check.limits.active() == ActiveLimit::Data
     };
     let open: Vec<&str> = checks.iter().filter(is_open).map(|check| check.id).collect();
+    let length = claims.rounded.iter().copied().fold(0.0, f64::max);
     // Half a unit of the last of d digits is 0.5 · 10^(1 − d).
     let digits = 1.0 - (2.0 * rounding).log10();
     (rounding > f64::EPSILON && !open.is_empty()).then(|| {
         format!(
-            "the shapes have {digits:.0} digits: what these leave open is more than the limits of {} let pass, so that no more is proved of \
-             the shapes than their digits say; write more of them",
+            "the shapes have {digits:.0} digits: numbers may be off by {} of themselves, and shapes by up to {} of their length in the mass, which \
+             is more than the limits of {} let pass, so that no more is proved of the shapes than their digits say; write more of them",
+            scientific(rounding, 1),
+            scientific(length, 1),
             open.join(", ")
         )
     })

@@ -2,8 +2,8 @@
 
 use super::subject::{OfPair, Subject, worst};
 use crate::certification::angles::Angle;
-use crate::certification::judgement::of_rounding;
 use crate::certification::pair::PairKind;
+use crate::certification::rounding::of_rounding;
 use crate::certification::strayed;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::mass_orthogonality;
@@ -20,17 +20,24 @@ impl Subject<'_> {
         /// The most that digits excuse without a warning, and at all.
         const MOST_EXCUSED: [f64; 2] = [1e-5, 1e-3];
         let inside = self.of_kinds(&[PairKind::Mode, PairKind::Inexact, PairKind::RigidBody, PairKind::Invented]);
-        let (value, at) = worst(inside.iter().map(|claim| (*claim, self.measured.backward[*claim])));
-        let data = self.of_digits_of(&inside) + self.component.partition.precision.share();
-        let limits = Limits { engineering: 1e-9, arithmetic: 0.0, data }.capped(0.0, MOST_EXCUSED[0]);
+        let found = OfPair::worst(inside.into_iter().map(|claim| {
+            let data = self.of_digits(claim) + self.component.partition.precision.share();
+            let limits = Limits { engineering: 1e-9, arithmetic: 0.0, data }.capped(0.0, MOST_EXCUSED[0]);
+            // ‖(K − ρM) δx‖ is within the rounding of the numbers; as much again covers the quotient that follows from them.
+            let of_rounding = if self.judged.is_rounded[claim] { 2.0 * self.claims.shape_rounding[claim] } else { 0.0 };
+            let fail_above = limits.value().max(1e-6).max(data.min(MOST_EXCUSED[1])).max(of_rounding);
+            OfPair { claim, value: self.measured.backward[claim], limits, fail_above }
+        }));
+        let nothing = Limits { engineering: 1e-9, ..Limits::default() };
         Check {
             id: "M-01",
             name: "modes satisfy the full model",
             equation: "max ‖Kx − ρMx‖ / ((‖K‖ + ρ‖M‖) ‖x‖), ρ = xᵀKx / xᵀMx, equilibrated",
-            value,
-            limits,
-            fail_above: limits.value().max(1e-6).max(data.min(MOST_EXCUSED[1])),
-            worst: at.map(|claim| format!("{}, {}", self.name(claim), self.judged.pairs[claim].worst_at)),
+            value: found.map_or(0.0, |found| found.value),
+            limits: found.map_or(nothing, |found| found.limits),
+            fail_above: found.map_or(1e-6, |found| found.fail_above),
+            worst: found
+                .map(|found| format!("{}, {}", self.name(found.claim), self.judged.pairs[found.claim].worst_at)),
         }
     }
 
@@ -46,7 +53,7 @@ impl Subject<'_> {
             arithmetic: NOISE_FACTOR * f64::EPSILON * found.largest_terms,
             data: self.of_digits_of(&modes) * found.largest_terms,
         };
-        let excused = limits.capped(0.0, MOST_EXCUSED);
+        let excused = limits.capped(0.0, self.most_excused(&modes));
         let limits = limits.capped(1e-6, 1e-3);
         (modes.len() > 1).then(|| Check {
             id: "M-03",
@@ -57,6 +64,11 @@ impl Subject<'_> {
             fail_above: limits.value().max(1e-2).max(excused.data),
             worst: Some(format!("{} and {}", self.name(modes[a]), self.name(modes[b]))),
         })
+    }
+
+    /// The most of two shapes in each other that digits excuse: all where every shape is a mode but for its rounding.
+    fn most_excused(&self, modes: &[usize]) -> f64 {
+        if modes.iter().all(|claim| self.judged.is_rounded[*claim]) { 1.0 } else { MOST_EXCUSED }
     }
 
     /// M-04.
@@ -82,7 +94,7 @@ impl Subject<'_> {
             arithmetic: NOISE_FACTOR * f64::EPSILON * cancellation,
             data: self.of_digits_of(&modes) * cancellation,
         };
-        let excused = limits.capped(0.0, MOST_EXCUSED);
+        let excused = limits.capped(0.0, self.most_excused(&modes));
         let limits = limits.capped(1e-3, 1e-2);
         let (value, (a, b)) = found;
         (modes.len() > 1).then(|| Check {
@@ -99,12 +111,13 @@ impl Subject<'_> {
     /// M-08.
     pub(super) fn angles(&self) -> Option<Check> {
         let angle = |claim: usize| Some((claim, self.judged.angles[claim]?));
-        let known = self.elastic().into_iter().filter_map(angle).flat_map(|(claim, angle)| self.angle(claim, angle));
-        let found = OfPair::worst(known)?;
+        let known = self.elastic().into_iter().filter_map(angle).map(|(claim, angle)| self.angle(claim, angle));
+        let found = OfPair::worst(known.chain(self.elastic().into_iter().filter_map(|claim| self.of_others(claim))))?;
         Some(Check {
             id: "M-08",
             name: "shapes lie close to eigenvectors",
-            equation: "max sin ∠(x, eigenvectors of its cluster) ≤ δ/γ, in the norm of K − σM",
+            equation: "max sin ∠(x, eigenvectors of its cluster) ≤ min(δ/γ, √(Σ a_k² (λ_k − σ)/(ρ − σ)) + δ_⊥/γ_⊥ √(1 + (δ/γ)²)), in the norm of \
+                       K − σM",
             value: found.value,
             limits: found.limits,
             fail_above: found.fail_above,
@@ -112,18 +125,25 @@ impl Subject<'_> {
         })
     }
 
-    /// The angle of a pair, and what it has of known modes by itself, each with what the digits of the shape make of it by the length of what
-    /// they round.
-    fn angle(&self, claim: usize, angle: Angle) -> [OfPair; 2] {
+    /// The angle of a pair, with what the digits of the shape make of it by the length of what they round.
+    fn angle(&self, claim: usize, angle: Angle) -> OfPair {
         /// The most that digits excuse without a warning, and at all: a quarter of the energy of a shape.
         const MOST_EXCUSED: [f64; 2] = [1e-2, 0.5];
         let rounded = of_rounding(self.claims, self.measured, claim);
-        [(angle.value, angle.per_rounding), (angle.of_known, 1.0)].map(|(value, per_rounding)| {
-            let data = per_rounding * rounded + self.component.partition.precision.share();
-            let limits = Limits { engineering: 1e-3, arithmetic: 0.0, data };
-            let [limits, excused] = MOST_EXCUSED.map(|most| limits.capped(0.0, most));
-            OfPair { claim, value, limits, fail_above: excused.data.max(1e-1) }
-        })
+        let data = angle.per_rounding * rounded + self.component.partition.precision.share();
+        let limits = Limits { engineering: 1e-3, arithmetic: 0.0, data };
+        let [limits, excused] = MOST_EXCUSED.map(|most| limits.capped(0.0, most));
+        // A sine is one at most: nothing is proved of a shape that is its mode but for rounding, and nothing is held against it.
+        let of_rounding = if self.judged.is_rounded[claim] { 1.0 } else { 0.0 };
+        OfPair { claim, value: angle.value, limits, fail_above: excused.data.max(1e-1).max(of_rounding) }
+    }
+
+    /// What a shape of few digits has of known modes in the norm of the mass, in which rounding is no larger than the digits say.
+    fn of_others(&self, claim: usize) -> Option<OfPair> {
+        let value = self.judged.of_others[claim].filter(|_| self.claims.shape_rounding[claim] > f64::EPSILON)?;
+        let data = self.claims.rounded[claim];
+        let limits = Limits { engineering: 1e-3, arithmetic: 0.0, data }.capped(0.0, 1e-2);
+        Some(OfPair { claim, value, limits, fail_above: data.max(1e-1) })
     }
 
     /// C-06.

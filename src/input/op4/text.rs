@@ -19,7 +19,7 @@ use crate::input::lines::Lines;
 use crate::number::counted;
 
 /// Fields of a matrix whose head does not say.
-const USUAL: Fields = Fields { per_line: 5, width: 16, decimals: 0, scale: 0 };
+const USUAL: Fields = Fields { per_line: 5, width: 16, before: 0, between: 0, decimals: 0, scale: 0 };
 
 /// Whether a file begins as OUTPUT4 in text does.
 pub(super) fn begins(head: &[u8]) -> bool {
@@ -136,7 +136,7 @@ impl<'a> File<'a> {
     /// Refuses a line that goes on behind its fields, of which there are so many at most: one of its numbers is wider than a field.
     fn refuse_wider(&self, n_left: u64) -> Result<()> {
         let n_fields = n_left.min(self.fields.per_line as u64) as usize;
-        let rest = self.lines.line().get(n_fields * self.fields.width..).unwrap_or_default();
+        let rest = self.lines.line().get(self.fields.end(n_fields)..).unwrap_or_default();
         if rest.trim_ascii().is_empty() {
             return Ok(());
         }

@@ -116,6 +116,34 @@ fn small(fields: &[&str]) -> String {
     fields.iter().map(|field| format!("{field:<8}")).collect::<String>() + "\n"
 }
 
+/// Names of continuations that no line has say nothing, in a head neither.
+#[test]
+fn names_of_continuations_that_nothing_has_are_passed_over() {
+    let folder = Folder::new();
+    let head = small(&["DMIG", "K", "0", "6", "2", "0", "", "", "", "+HEAD"]);
+    let first = small(&["DMIG", "K", "1", "1", "", "1", "1", "2.", "", "+FIRST"]);
+    assert_whole(&folder.write("deck.bdf", format!("{head}{first}{SECOND}")));
+}
+
+/// A tab fills up to the next field, in every line of a deck.
+#[test]
+fn decks_with_tabs_are_those_with_blanks() {
+    let folder = Folder::new();
+    let small = "DMIG\tK\t0\t6\t2\t0\nDMIG\tK\t1\t1\t\t1\t1\t2.\nDMIG\tK\t1\t2\t\t1\t2\t3.\n\t1\t1\t-1.\n";
+    let by_eight = "DMIG*\tK\t\t1\t\t1\n*\t1\t\t1\t\t2.\nDMIG*\tK\t\t1\t\t2\n*\t1\t\t2\t\t3.\n*\t1\t\t1\t\t-1.\n";
+    let by_fields = "DMIG*\tK\t1\t1\n*\t1\t1\t2.\nDMIG*\tK\t1\t2\n*\t1\t2\t3.\n*\t1\t1\t-1.\n";
+    let head = "DMIG\tK\t0\t6\t2\t0\n";
+    let rows = folder.write("rows.bdf", "GRID\t1\t\t0.\t0.\t0.\nSPOINT\t7\t8\nGRID\t9\t\t0.\t0.\t1.\n");
+    for text in [small.to_owned(), format!("{head}{by_eight}"), format!("{head}{by_fields}")] {
+        let deck = folder.write("deck.bdf", format!("SOL\t103\nCEND\nBEGIN BULK\n{text}"));
+        assert_whole(&deck);
+        let deck = folder.write("deck.bdf", text);
+        assert_whole(&deck);
+        let dofs = read(&deck, Some(&rows)).expect("rows of two grid points").dofs.expect("a dof map");
+        assert_eq!(dofs.iter().flatten().map(|dof| dof.node).collect::<Vec<_>>(), [[1; 6], [9; 6]].concat());
+    }
+}
+
 /// A line continues the one before it. Where names say that it belongs to another one, nothing is read.
 #[test]
 fn continuations_belong_to_the_line_before_them() {
@@ -132,6 +160,8 @@ fn continuations_belong_to_the_line_before_them() {
         .map(|(a, b)| kept(a, b).to_vec())
         .to_vec();
     decks.push(vec![free.into(), "+A1,2,1,-1.\n".into(), column("")]);
+    decks.push(vec![first("+A1"), more("+A1"), column("+UNUSED")]);
+    decks.push(vec![first("+A1"), small(&["+A1", "2", "1", "-1.", "", "", "", "", "", "+UNUSED"]), column("")]);
     decks.push(vec![first("+A1"), "$\n\n".into(), more("+A1"), column("")]);
     for cards in decks {
         let entries = read(&written(&cards), None).unwrap_or_else(|error| panic!("{cards:?}: {error}")).input.matrix;
@@ -147,6 +177,7 @@ fn continuations_belong_to_the_line_before_them() {
         (vec![first("+A1"), more("+ZZ"), column("")], 3),
         (vec![free.into(), column(""), "+A1,2,1,-1.\n".into()], 2),
         (vec![large.into(), column("")], 3),
+        (vec![first("+A1"), small(&["GRID", "7", "", "", "", "", "", "", "", "+a1"]), more("+a1"), column("")], 2),
     ] {
         let error = read(&written(&cards), None).expect_err("a continuation of another line").to_string();
         assert!(

@@ -245,3 +245,41 @@ fn decimals_that_a_format_implies() {
         assert_eq!(diagonal, [1.5, 2000.0, -0.003], "{format}");
     }
 }
+
+/// Groups in brackets, with blanks before each number, within twenty columns and beyond.
+#[test]
+fn formats_with_groups_in_brackets() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("k.rsa");
+    let numbers = |width: usize| ["1.5", "2000.0", "-3.0"].map(|value| format!("{value:>width$}"));
+    // A scale counts where there is no exponent.
+    let scaled = ["1.5E0", "2.0E3", "-3.0E0"].map(|value| format!("{value:>10}"));
+    let far = |between: &str| numbers(10).map(|value| format!("{between}{value}")).concat();
+    for (formats, pointers, values) in [
+        ("(4(1X,I3))      (3I4)           (3(1X,F10.3))", "   1   2   3   4", far(" ")),
+        (
+            "(4I4)           (3I4)           (1P,3(2X,E10.2))",
+            "   1   2   3   4",
+            scaled.clone().map(|value| format!("  {value}")).concat(),
+        ),
+        (
+            "(2(1X,I3))      (3I4)           (2(2X,D10.2))",
+            "   1   2\n   3   4",
+            far("  ").replacen("  2000.0", "  2000.0\n", 1),
+        ),
+        (
+            "(2(2(1X,I3))) (3(1X,I3)) (3(2X,1P,E10.2,1X))",
+            "   1   2   3   4",
+            scaled.map(|value| format!("  {value} ")).concat(),
+        ),
+        // Without blanks the numbers are where the format says, and nothing else.
+        ("(4I4)           (3I4)           (3(2X,F6.1))", "   1   2   3   4", "xx1.5   xx2000.0xx-3.0  ".to_owned()),
+    ] {
+        let text = format!("a\n 3 1 1 1\nRSA           3 3 3 0\n{formats}\n{pointers}\n   1   2   3\n{values}\n");
+        std::fs::write(&path, text).expect("written");
+        let matrix = SingleMatrix { file: path.clone(), layout: None, dofs: None };
+        let read = matrix.read(&Allowance::of(None)).unwrap_or_else(|error| panic!("{formats}: {error}"));
+        let diagonal: Vec<f64> = (0..3).filter_map(|row| read.input.matrix.get(row, row).copied()).collect();
+        assert_eq!(diagonal, [1.5, 2000.0, -3.0], "{formats}");
+    }
+}
