@@ -71,13 +71,13 @@ impl<'a> Cards<'a> {
                 return Ok(None);
             }
             self.is_ahead = false;
-            let Some(first) = first_fields(self.lines.line(), self.name) else { continue };
+            let Some(first) = first_fields(self.line(), self.name) else { continue };
             let mut card = Card { fields: first.fields, place: self.lines.place() };
             let mut due = Due { name: first.next, place: card.place.clone() };
             while self.lines.advance()? {
-                let line = self.lines.line();
+                let line = self.line();
                 // Nastran passes over comments and blank lines.
-                if line.starts_with(b"$") || line.trim_ascii().is_empty() {
+                if line.trim_ascii().is_empty() {
                     continue;
                 }
                 if line.starts_with(b"=") {
@@ -94,6 +94,12 @@ impl<'a> Cards<'a> {
             due.check_nothing_is_promised()?;
             return Ok(Some(card));
         }
+    }
+
+    /// The line that was read, without the comment behind its fields.
+    fn line(&self) -> &[u8] {
+        let line = self.lines.line();
+        line.split(|byte| *byte == b'$').next().unwrap_or(line)
     }
 
     /// BLAKE3 of the deck, with what it includes, and whether the last line that was read is complete.
