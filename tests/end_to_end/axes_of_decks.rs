@@ -10,7 +10,7 @@ use crate::place::{Place, steel_brick, supel};
 /// The node whose rows are along axes of its own: x along (1, 1, 0), y along (-1, 1, 0).
 const TURNED: i64 = 7;
 const SYSTEM: &str = "CORD2R,4,,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\n";
-const REDUCTION: &str = "--interface hub=5,15,45 --method herting --modes 3";
+const REDUCTION: &str = "--interface hub=5,15,45 --method guyan";
 
 /// GRID entries of a model, with the system of the node that is turned.
 fn grids(model: &Model, cd: &str) -> String {
@@ -121,7 +121,7 @@ fn the_deck_of_a_further_matrix_has_to_state_the_same_axes() {
     let job = |matrix: &str, model: &str| {
         format!(
             "interface = [{{ name = \"hub\", nodes = [5, 15, 45] }}]\nreduction = {{ method = \"guyan\" }}\n\
-             matrix = [{{ name = \"c\", file = \"{matrix}\", kind = \"damping\" }}]\n[model]\n{model}\n\
+             matrix = [{{ name = \"c\", file = \"{matrix}\", kind = \"other\" }}]\n[model]\n{model}\n\
              [write]\nsuperelement = \"x.supel\"\n"
         )
     };
@@ -135,8 +135,34 @@ fn the_deck_of_a_further_matrix_has_to_state_the_same_axes() {
         ("M-turned.bdf", silent, ExitCode::InputData),
     ] {
         decks.place.write("job.toml", job(matrix, model).as_bytes());
-        let ended = supel(&["reduce", &decks.place.text("job.toml"), "--force"]).expect(code);
+        let ended = supel(&["reduce", &decks.place.text("job.toml")]).expect(code);
         let is_named = ended.err.contains("E-FRAME-DIFFER") && ended.err.contains(matrix);
         assert_eq!(is_named, code == ExitCode::InputData, "{matrix}: {}", ended.err);
     }
+}
+
+/// Grid points of a deck are nodes, in whatever system they are given and by their labels, and CD is that of the rows.
+#[test]
+fn grid_points_of_a_deck_are_nodes() {
+    let decks = Decks::new();
+    let h = 0.5f64.sqrt();
+    let grid = |(label, [x, y, z]): (i64, &[f64; 3])| {
+        let [a, b] = [h * (x + y), h * (y - x)];
+        let cd = if label == TURNED { "4" } else { "" };
+        format!("GRID,{label},4,{a:?},{b:?},{z:?},{cd}\n")
+    };
+    let grids: String = (1i64..).zip(&decks.sound.nodes).map(grid).collect();
+    decks.place.write("grids.inc", grids.as_bytes());
+    decks.place.write("nodes.bdf", format!("BEGIN BULK\n{SYSTEM}INCLUDE 'grids.inc'\n").as_bytes());
+    let mut flags = decks.flags(["K.mtx", "M.mtx"], Some("dofs.txt"));
+    flags.extend(["--nodes".to_owned(), decks.place.text("nodes.bdf")]);
+    let ended = decks.place.reduce(&flags, REDUCTION).expect(ExitCode::Done);
+    assert!(ended.out.contains("6 modes from the coordinates"), "{}", ended.out);
+    assert_is_that_of(&decks.place, &decks.sound, REDUCTION);
+    decks.place.write("nodes.bdf", b"BEGIN BULK\nGRID,1,,x,0.,0.\n");
+    let ended = decks.place.reduce(&flags, REDUCTION).expect(ExitCode::InputData);
+    assert!(ended.err.contains("three coordinates of a grid point"), "{}", ended.err);
+    decks.place.write("nodes.bdf", b"BEGIN BULK\nSPOINT,1\n");
+    let ended = decks.place.reduce(&flags, REDUCTION).expect(ExitCode::InputData);
+    assert!(ended.err.contains("E-NO-DATA"), "{}", ended.err);
 }

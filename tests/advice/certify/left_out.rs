@@ -105,6 +105,8 @@ fn modes_of_few_digits_are_not_left_out() {
         };
         let found = document(&bar(), &Foreign { basis: of(&right), ..right.clone() }, ExitCode::Done);
         assert_eq!(verdict(&found, "C-12"), Some("pass"), "{digits} digits: {found}");
+        // And so are the comparisons at its interface.
+        assert_ne!(verdict(&found, "M-33"), Some("warn"), "{digits} digits: {found}");
         // A lost one is told in few digits, too.
         let lost = without(&right, 3);
         let found = document(&bar(), &Foreign { basis: of(&lost), ..lost }, ExitCode::CheckFailed);
