@@ -16,7 +16,7 @@ use crate::verification::limits::{self, Judged, Known};
 /// Share of a motion or of its mass that practice does not miss.
 const CARRIED: f64 = 1e-6;
 /// Share that fails.
-pub(super) const NOT_CARRIED: f64 = 1e-3;
+const NOT_CARRIED: f64 = 1e-3;
 /// Relative difference of a frequency that practice accepts.
 pub(super) const FREQUENCY: f64 = 1e-2;
 /// Share of a mode beside the basis that practice accepts, and from which on the basis has another one: of its mass, a hundredth and a
