@@ -801,6 +801,25 @@ pub enum Error {
         /// What was found, in words.
         found: &'static str,
     },
+    /// Two decks state other axes of a node.
+    #[entry(
+        "E-FRAME-DIFFER",
+        InputData,
+        "take the decks of one run, or give the axes that the rows are along with `model.frames`"
+    )]
+    #[error(
+        "{}: node {node} is {}, and in {} it is {} – expected one set of axes for the rows of all files of a model – take the decks of \
+         one run, or give the axes that the rows are along with `model.frames`",
+        paths[0].display(), along[0], paths[1].display(), along[1]
+    )]
+    FrameDiffer {
+        /// The decks.
+        paths: [PathBuf; 2],
+        /// Label of the first such node.
+        node: i64,
+        /// What each states, in words.
+        along: [String; 2],
+    },
     /// Without a dof map the counts do not say what the rows are.
     #[entry("E-MAP-NEEDED", InputData, "give a dof map with `model.dofs` (`reduce --dofs`)")]
     #[error(
@@ -1042,15 +1061,15 @@ pub enum Error {
         /// The objects there.
         holds: Vec<String>,
     },
-    /// A further matrix is not symmetric, and its layout does not say whether rows or columns are compressed.
+    /// A further matrix is not symmetric, and no number of its layout says whether rows or columns are compressed.
     #[entry(
         "E-HDF5-ORIENTATION",
         InputData,
         "write it as MATLAB does (`MATLAB_sparse`, `jc`, `ir`, `data`), or as a Matrix Market file"
     )]
     #[error(
-        "{}:{group}: found a matrix that is not symmetric, in a layout that does not say whether rows or columns are compressed – \
-        expected a symmetric one, or the layout of MATLAB – write a Matrix Market file",
+        "{}:{group}: found a matrix that is not symmetric, in a layout that says in a text, which is not read, or nowhere whether rows or \
+        columns are compressed – expected a symmetric one, or the layout of MATLAB – write a Matrix Market file",
         path.display()
     )]
     Hdf5Orientation {
@@ -1414,9 +1433,13 @@ pub enum Error {
         expected: String,
     },
     /// A deck includes a file that is not in its folder, or more files than any deck does.
-    #[entry("E-INCLUDE", InputData, "put the file into the folder of the deck and name it by a relative path")]
+    #[entry(
+        "E-INCLUDE",
+        InputData,
+        "put the file into the folder of the deck and name it by a relative path; take out what includes itself"
+    )]
     #[error(
-        "{}:{line}: includes `{reference}`, {reason} – expected a file in the folder of the deck or below – put it there",
+        "{}:{line}: includes `{reference}`, {reason} – expected {expected}",
         path.display()
     )]
     DeckInclude {
@@ -1428,6 +1451,8 @@ pub enum Error {
         reference: String,
         /// Why it is not read.
         reason: &'static str,
+        /// What is expected in its place, and what to do.
+        expected: &'static str,
     },
     /// A deck makes its mesh by something that is not read.
     #[entry("E-DECK", InputData, "have the program write out the mesh, as the message says")]

@@ -4,7 +4,7 @@ use crate::certification::{
     self, Band, Claims, Foreign, ForeignSuperelement, Interface, LeftOut, Own, PairFiles, ReducedCertification,
     ReducedFiles, ResultFiles,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::examination::{self, Examination, Examined};
 use crate::input::{self, Allowance, ModeValues};
 use crate::job::{Job, ModeSelection, ModesJob, ReductionJob};
@@ -22,7 +22,7 @@ use crate::verification::preservation::Preservation;
 /// model and what is held of it; it has no interface: rows that a superelement keeps as coordinates are found in its basis.
 ///
 /// # Errors
-/// The errors of reading the model and the result; [`Error::ValuesUnit`](crate::error::Error::ValuesUnit); those of the stages up to the modes.
+/// The errors of reading the model and the result; [`Error::ValuesUnit`]; those of the stages up to the modes.
 pub fn certify(
     job: &Job,
     files: &ResultFiles,
@@ -124,7 +124,11 @@ fn held_modes(
     (resources, observer): (Resources, &mut dyn Observer),
 ) -> Result<Option<LeftOut>> {
     let Some(job) = interface.held(job) else { return Ok(None) };
-    let (_, partition) = prepared(&Plan::of(&job), resources, observer)?;
+    let partition = match prepared(&Plan::of(&job), resources, observer) {
+        // What keeps all rows has no modes with them held.
+        Err(Error::AllFixed { .. }) => return Ok(None),
+        prepared => prepared?.1,
+    };
     with_component(&Plan::of(&job), &partition, (resources, observer), |Conditioned { component, .. }, observer| {
         observer.stage("certificate");
         certification::left_out(component, &job.reduction, (given, interface), (Own::Held, 0))

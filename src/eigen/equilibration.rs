@@ -47,10 +47,12 @@ impl Equilibrated {
         (Self { scale, stiffness_norm, mass_norm }, rows)
     }
 
-    /// Normwise backward error of (λ, x) with residual r: ‖Dr‖ / ((‖DKD‖ + |λ|‖DMD‖) ‖D⁻¹x‖), measure M-01.
+    /// Normwise backward error of (λ, x) with residual r: ‖Dr‖ / ((‖DKD‖ + |λ|‖DMD‖) ‖D⁻¹x‖), measure M-01. Without stiffness and at λ = 0
+    /// no force is left of any motion, and none is needed.
     pub fn backward_error(&self, lambda: f64, x: &[f64], residual: &[f64]) -> f64 {
         let r: Vec<f64> = residual.iter().zip(&self.scale).map(|(r, d)| r * d).collect();
-        dense::norm(&r) / ((self.stiffness_norm + lambda.abs() * self.mass_norm) * self.scaled_norm(x))
+        let (force, size) = (dense::norm(&r), self.stiffness_norm + lambda.abs() * self.mass_norm);
+        if force == 0.0 && size == 0.0 { 0.0 } else { force / (size * self.scaled_norm(x)) }
     }
 
     /// ‖Dr‖ / ‖D(|K||x| + |λ||M||x|)‖: the residual of (λ, x) over the terms that it is summed from, |K||x| and |M||x|.

@@ -47,6 +47,8 @@ pub(super) fn retreat(job: &Job, error: &Error) -> Option<Retreat> {
             "with the lower triangle for both"
         }
         Error::SameMatrix { .. } | Error::SizeMismatch { .. } => return None,
+        // Rows turned by axes of few digits fit no coordinates, and not turned at all they fit them less.
+        Error::FrameDigits { .. } if model.dofs.is_some() && model.nodes.take().is_some() => "without the nodes",
         // Whatever is wrong with nodes, map or constraints: matrices alone may be sound.
         _ if is_of_frames(error, model.frames.as_deref()) && model.frames.take().is_some() => {
             "without the axes of nodes"

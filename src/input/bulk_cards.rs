@@ -79,13 +79,13 @@ impl<'a> Cards<'a> {
                 return Ok(None);
             }
             self.is_ahead = false;
-            let Some(first) = first_fields(self.lines.line(), self.name) else { continue };
+            let Some(first) = first_fields(self.line(), self.name) else { continue };
             let mut card = Card { fields: first.fields, place: self.lines.place() };
             let mut due = Due { name: first.next, place: card.place.clone() };
             while self.lines.advance()? {
-                let line = self.lines.line();
+                let line = self.line();
                 // Nastran passes over comments and blank lines.
-                if line.starts_with(b"$") || line.trim_ascii().is_empty() {
+                if line.trim_ascii().is_empty() {
                     continue;
                 }
                 if line.starts_with(b"=") {
@@ -115,6 +115,11 @@ impl<'a> Cards<'a> {
             none => none.insert(names_of_continuations(self.path)?),
         };
         if named.contains(&own_name(&due.name).to_ascii_uppercase()) { Err(due.missed()) } else { Ok(()) }
+    }
+
+    /// The line that was read, without the comment behind its fields.
+    fn line(&self) -> &[u8] {
+        without_comment(self.lines.line())
     }
 
     /// BLAKE3 of the deck, with what it includes, and whether the last line that was read is complete.
@@ -162,12 +167,17 @@ impl Due {
     }
 }
 
+fn without_comment(line: &[u8]) -> &[u8] {
+    line.split(|byte| *byte == b'$').next().unwrap_or(line)
+}
+
 /// The names of all continuations of a deck, without their marks and in capital letters.
 fn names_of_continuations(path: &Path) -> Result<HashSet<Vec<u8>>> {
     let mut lines = BulkLines::open(path)?;
     let mut names = HashSet::new();
     while lines.advance()? {
-        let name = continued_fields(lines.line()).map(|line| own_name(&line.name).to_ascii_uppercase());
+        let name =
+            continued_fields(without_comment(lines.line())).map(|line| own_name(&line.name).to_ascii_uppercase());
         names.extend(name.filter(|name| !name.is_empty()));
     }
     Ok(names)
@@ -199,7 +209,7 @@ fn continued_fields(line: &[u8]) -> Option<Line> {
 }
 
 fn line_of(line: &[u8], width: Width) -> Line {
-    let is_free = line.iter().take(FREE).take_while(|byte| **byte != b'$').any(|byte| *byte == b',');
+    let is_free = line.iter().take(FREE).any(|byte| *byte == b',');
     if is_free { free_line(line, width) } else { fixed_line(line, width) }
 }
 

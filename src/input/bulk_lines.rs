@@ -104,9 +104,9 @@ impl<'a> BulkLines<'a> {
         let Place { path, line } = self.place();
         let reference = self.reference()?;
         let counts = (self.open.len(), self.files.len());
-        let file = included_file(&self.files[0], &reference, counts).map_err(|reason| {
+        let file = included_file(&self.files[0], &reference, counts).map_err(|[reason, expected]| {
             let reference = excerpt(reference.as_bytes());
-            Error::DeckInclude { path: path.to_path_buf(), line, reference, reason }
+            Error::DeckInclude { path: path.to_path_buf(), line, reference, reason, expected }
         })?;
         self.open.push((self.files.len(), Lines::open(file.clone())?));
         self.files.push(file.into());

@@ -30,6 +30,7 @@ pub(super) fn is_bulk(start: &FileStart<'_>) -> bool {
 /// Whether a line stands between sections of a deck.
 fn divides(line: &[u8]) -> bool {
     const BEGIN: [&[u8]; 3] = [b"BEGIN BULK", b"BEGIN SUPER", b"EXTRN"];
+    let line = line.split(|byte| *byte == b'$').next().unwrap_or(line).trim_ascii_end();
     line == b"CEND" || BEGIN.iter().any(|word| line.starts_with(word))
 }
 
@@ -88,6 +89,7 @@ mod tests {
             "INIT MASTER(S)\n",
             "include 'a.bdf'\n",
             "ID A,B\nTIME 600\nCEND\n",
+            "ID A,B\nTIME 600\nCEND $ a comment\n",
             "TITLE = A\nBEGIN BULK\n",
             "$ a comment\n\nSOL 103\n",
             "SOL,101\n",

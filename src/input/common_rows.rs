@@ -83,7 +83,7 @@ impl RowLabels {
         let rows = self.rows_of(&input.path, &labels)?;
         let matrix = renumbered(input.matrix, &rows, self.0.len());
         let input = MatrixInput { matrix, ..input };
-        Ok(ReadMatrix { input, order: OrderSource::Labels, last_line, labels: None })
+        Ok(ReadMatrix { input, order: OrderSource::Labels, last_line, labels: None, frames: Ok(None) })
     }
 
     /// The rows that matrices name, where all do; those that a dof map names otherwise.

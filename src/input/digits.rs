@@ -6,6 +6,7 @@
 //!
 //! The rule, and its limits:
 //!
+//! - Values that are all numbers of a type of two bytes are of 3 digits, see [`super::half_precision`].
 //! - Values that are all single precision numbers, or texts of such, are single precision: 7, see [`super::single_precision`].
 //! - d is the number of digits that 99 of 100 sampled values do not exceed. With d above 15 the data are binary: 17.
 //! - d from 7 to 15 is taken as the precision of the source where three different values have more than six digits, unless they are exact
@@ -32,6 +33,7 @@ use serde::Serialize;
 
 use super::decimal::{Decimal, Sampled};
 use super::exact::{MAX_EXACT_DIGITS, is_exact};
+use super::half_precision::{HALF_DIGITS, is_half_precision};
 use super::single_precision::{SINGLE_DIGITS, Single, single_precision};
 use super::written::{MAX_DECIMAL_DIGITS, MIN_DISTINCT, SAMPLE, Written};
 use crate::number::{counted, decimals};
@@ -186,6 +188,9 @@ fn digits_of_sample(values: impl Iterator<Item = f64>) -> Digits {
     let sample: Vec<Sampled> = counted.map(Sampled::of).collect();
     if sample.is_empty() {
         return Digits::DOUBLE;
+    }
+    if is_half_precision(&sample) {
+        return Digits::relative(HALF_DIGITS);
     }
     let mut counts: Vec<u32> = sample.iter().map(|sampled| sampled.decimal.n_digits).collect();
     counts.sort_unstable();

@@ -117,6 +117,8 @@ pub(super) struct ReadNodes {
     pub(super) data_digest: Option<String>,
     /// The axes of nodes that have their own, as the deck says.
     pub(super) frames: Option<NodeFrames>,
+    /// The axes that rows are along whoever writes the matrices, as the deck says.
+    pub(super) along_frames: Option<NodeFrames>,
 }
 
 /// Cells as their format left them.
@@ -130,7 +132,7 @@ pub(super) struct ReadCells {
 impl ReadNodes {
     /// Nodes of a format that knows no axes of nodes.
     pub(super) fn along_the_axes(nodes: Nodes, data_digest: Option<String>) -> Self {
-        Self { nodes, data_digest, frames: None }
+        Self { nodes, data_digest, frames: None, along_frames: None }
     }
 }
 
@@ -154,12 +156,14 @@ pub(super) struct ReadMatrix {
     pub(super) last_line: LastLine,
     /// What each row is, ascending, where the matrix itself says so.
     pub(super) labels: Option<Vec<RowLabel>>,
+    /// The axes that the deck of the matrix states its nodes to have, which its rows are along; an error where it does not tell all of them.
+    pub(super) frames: Result<Option<NodeFrames>>,
 }
 
 impl ReadMatrix {
     /// A matrix of a format that states its size.
     pub(super) fn with_size(input: MatrixInput) -> Self {
-        Self { input, order: OrderSource::SizeLine, last_line: LastLine::Terminated, labels: None }
+        Self { input, order: OrderSource::SizeLine, last_line: LastLine::Terminated, labels: None, frames: Ok(None) }
     }
 }
 

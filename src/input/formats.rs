@@ -13,6 +13,7 @@ use super::hdf5_format::{Hdf5Matrix, Hdf5Mesh};
 use super::matlab5::Matlab5;
 use super::matrix_market::{Coordinate, MatrixMarket};
 use super::mesh;
+use super::nastran_nodes::NastranNodes;
 use super::nastran_rows::NastranRows;
 use super::node_table::NodeTable;
 use super::npy_matrix::NpyMatrix;
@@ -39,8 +40,17 @@ const MATRICES: [&dyn MatrixFormat; 12] = [
     &Coordinate,
 ];
 /// Formats of nodes.
-const NODES: [&dyn NodeFormat; 8] =
-    [&SuperelementFile, &Hdf5Mesh, &mesh::DECK, &mesh::GMSH, &mesh::FRD, &mesh::VTK, &mesh::VTU, &NodeTable];
+const NODES: [&dyn NodeFormat; 9] = [
+    &SuperelementFile,
+    &Hdf5Mesh,
+    &NastranNodes,
+    &mesh::DECK,
+    &mesh::GMSH,
+    &mesh::FRD,
+    &mesh::VTK,
+    &mesh::VTU,
+    &NodeTable,
+];
 /// Formats of dof maps.
 const DOF_MAPS: [&dyn DofMapFormat; 4] = [&SuperelementFile, &NastranRows, &AnsysMapping, &DofText];
 

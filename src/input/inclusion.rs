@@ -6,6 +6,10 @@ use crate::linked;
 
 /// Files that are open at once, each included by the one before.
 const MAX_DEPTH: usize = 16;
+/// What is expected of a file that is not where it has to be, and of files that go on including others.
+const INSIDE: &str = "a file in the folder of the deck or below – put it there";
+const FINITE: &str = "files that do not include themselves, by others or directly – take the line out that does";
+const FEWER: &str = "a thousand inclusions at most – put the files together";
 /// Inclusions of one deck.
 const MAX_INCLUSIONS: usize = 1 << 10;
 
@@ -13,17 +17,18 @@ const MAX_INCLUSIONS: usize = 1 << 10;
 /// open, and `n_files` were opened so far, the deck among them.
 ///
 /// # Errors
-/// Why the file is not read, in words.
+/// Why the file is not read, and what is expected, in words.
 pub(super) fn included_file(
     deck: &Path,
     reference: &str,
     (n_open, n_files): (usize, usize),
-) -> Result<PathBuf, &'static str> {
-    let file = inside_folder(deck, reference)?;
-    if n_open >= MAX_DEPTH || n_files > MAX_INCLUSIONS {
-        return Err("one file too many: files may include each other 16 deep and a thousand times");
+) -> Result<PathBuf, [&'static str; 2]> {
+    let file = inside_folder(deck, reference).map_err(|reason| [reason, INSIDE])?;
+    match () {
+        () if n_open >= MAX_DEPTH => Err(["by 16 files that include each other", FINITE]),
+        () if n_files > MAX_INCLUSIONS => Err(["behind a thousand others", FEWER]),
+        () => Ok(file),
     }
-    Ok(file)
 }
 
 /// The file of a name, where it lies in the deck's folder or below.

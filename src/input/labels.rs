@@ -85,6 +85,6 @@ impl<'a> LabelledEntries<'a> {
         let entries = entries.renumbered(&rank);
         let input = entries.into_matrix(source, (labels.len() as u32, declared), digest)?;
         let labels = order.iter().map(|number| labels[*number as usize]).collect();
-        Ok(ReadMatrix { input, order: OrderSource::Labels, last_line, labels: Some(labels) })
+        Ok(ReadMatrix { input, order: OrderSource::Labels, last_line, labels: Some(labels), frames: Ok(None) })
     }
 }

@@ -13,7 +13,7 @@ use super::{InputNote, dof_map, formats};
 use crate::dofs::{DofMap, Nodes};
 use crate::error::{Error, Result};
 use crate::job::ModelJob;
-use crate::regular_file::{digest, unchanged};
+use crate::regular_file::unchanged;
 use crate::sparse::MAX_ORDER;
 
 /// Digests by the role of a file.
@@ -29,8 +29,8 @@ pub(super) struct MapAndNodes {
 
 /// Axes of nodes as files say them that are read for something else.
 pub(super) struct SaidFrames {
-    /// By the file of the dof map: the rows are along them. An error where it does not tell all of them.
-    pub(super) by_map: Result<Option<NodeFrames>>,
+    /// By the decks of the dof map, of the nodes and of the matrices, of Nastran: the rows are along them. An error where one does not tell all of them.
+    pub(super) by_decks: Vec<Result<Option<NodeFrames>>>,
     /// By the deck of the nodes: whether rows are along them depends on who writes the matrices.
     pub(super) by_nodes: Option<NodeFrames>,
 }
@@ -47,11 +47,12 @@ pub(super) fn map_and_nodes(
     allowance: &Allowance,
     (digests, notes): (&mut Digests, &mut Vec<InputNote>),
 ) -> Result<MapAndNodes> {
-    let mut said = SaidFrames { by_map: Ok(None), by_nodes: None };
+    let mut said = SaidFrames { by_decks: Vec::new(), by_nodes: None };
     let nodes = match model.nodes.as_deref() {
         Some(path) => {
-            let (nodes, frames) = read_nodes(path, allowance, digests)?;
+            let ReadNodes { nodes, frames, along_frames, .. } = read_nodes(path, allowance, digests)?;
             said.by_nodes = frames;
+            said.by_decks.push(Ok(along_frames));
             Some(nodes)
         }
         None => None,
@@ -61,7 +62,7 @@ pub(super) fn map_and_nodes(
             let (read, of_map) =
                 unchanged(path, || Ok((read_dofs(path, n, (allowance, notes))?, digest_with_included(path)?)))?;
             let dofs = read.dofs;
-            said.by_map = read.frames;
+            said.by_decks.push(read.frames);
             digests.insert("dofs", of_map);
             let Some((nodes, nodes_path)) = nodes.zip(nodes_path) else {
                 dof_map::check_repeated(path, &dofs)?;
@@ -111,16 +112,16 @@ fn compare(dofs: &DofMap, path: &Path, (nodes, nodes_path): (&Nodes, &Path), not
 /// # Errors
 /// A file that cannot be read or whose content is wrong, more data than `allowance` has room for.
 pub fn nodes(path: &Path, allowance: &Allowance) -> Result<Nodes> {
-    read_nodes(path, allowance, &mut Digests::new()).map(|(nodes, _)| nodes)
+    read_nodes(path, allowance, &mut Digests::new()).map(|read| read.nodes)
 }
 
-fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<(Nodes, Option<NodeFrames>)> {
-    let (ReadNodes { nodes, data_digest, frames }, of_nodes) =
-        unchanged(path, || Ok((formats::of_nodes(path)?.read(path, allowance)?, digest(path)?)))?;
-    digests.extend(data_digest.map(|digest| ("nodes_data", digest)));
+fn read_nodes(path: &Path, allowance: &Allowance, digests: &mut Digests) -> Result<ReadNodes> {
+    let (mut read, of_nodes) =
+        unchanged(path, || Ok((formats::of_nodes(path)?.read(path, allowance)?, digest_with_included(path)?)))?;
+    digests.extend(read.data_digest.take().map(|digest| ("nodes_data", digest)));
     digests.insert("nodes", of_nodes);
-    refuse_out_of_range(path, &nodes)?;
-    Ok((nodes, frames))
+    refuse_out_of_range(path, &read.nodes)?;
+    Ok(read)
 }
 
 /// Refuses coordinates with which moments of inertia, and what is squared of them, would leave the range of double precision.

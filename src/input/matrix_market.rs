@@ -99,7 +99,7 @@ fn read_in_blocks(source: &MatrixSource<'_>, block_bytes: usize) -> Result<ReadM
     };
     let found = Found { n, declared, entries: gathered, written, digest: ending.digest };
     let input = assembled(found, source, &claim)?;
-    Ok(ReadMatrix { input, order, last_line: ending.last_line, labels: None })
+    Ok(ReadMatrix { input, order, last_line: ending.last_line, labels: None, frames: Ok(None) })
 }
 
 /// What was read so far.

@@ -14,15 +14,18 @@ use super::load_file::{LoadColumn, WantedColumn, WantedColumns, columns_of_file}
 use super::map_and_nodes::{Digests, MapAndNodes, dof_map_for_labels, map_and_nodes, nodes};
 use super::member::split_member;
 use super::modes_file::{ModeColumns, mode_columns};
+use super::nastran_frames::grid_frames;
+use super::node_frames::NodeFrames;
 use super::patch::Patches;
 use super::quantity_files::{QuantityRows, quantity_rows};
 use super::superelement_file::refuse_other;
 use super::turned_rows::{turned, turning};
-use super::{Cells, InputNote, MatrixInput, MatrixRole, empty_rows, formats, unit_mass};
+use super::{Cells, InputNote, MatrixInput, MatrixRole, deck_axes, empty_rows, formats, unit_mass};
 use crate::dofs::{DofMap, FileRows, Nodes, RoundedAxes};
 use crate::error::{Error, Result, Unnamed};
 use crate::job::{
-    ConstraintsToGround, Duplicates, Job, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob, ReductionJob,
+    ConstraintsToGround, Duplicates, Job, Layout, LoadJob, LoadPattern, MatrixJob, ModelJob, QuantitiesJob,
+    ReductionJob,
 };
 use crate::regular_file::unchanged;
 use crate::sparse::{Mirrored, Triangle, Turning};
@@ -81,14 +84,15 @@ pub fn read(model: &ModelJob) -> Result<Input> {
 /// [`Error::Duplicates`] where the job refuses them.
 pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let mut notes = Vec::new();
-    let OwnMatrices { mut stiffness, mass, labels } = own_matrices(model, allowance, &mut notes)?;
+    let OwnMatrices { mut stiffness, mass, labels, frames } = own_matrices(model, allowance, &mut notes)?;
     let n = stiffness.matrix.rows();
     let mut digests = BTreeMap::new();
     let named = labels.as_ref().map(|labels| (model.stiffness.as_path(), labels.dof_map().unwrap_or_default()));
-    let MapAndNodes { mut dofs, nodes, said } =
+    let MapAndNodes { mut dofs, nodes, mut said } =
         map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
-    let layout = stiffness.layout;
-    let turning = turning(model, (dofs.as_ref(), layout), said, allowance, (&mut digests, &mut notes))?;
+    said.by_decks.extend(frames);
+    let layouts = [stiffness.layout, mass.as_ref().and_then(|mass| mass.layout)];
+    let turning = turning(model, (dofs.as_ref(), layouts), said, allowance, (&mut digests, &mut notes))?;
     let (turning, axes) = turning.unzip();
     let turning = turning.as_ref();
     stiffness = turned(stiffness, turning);
@@ -187,8 +191,11 @@ pub fn expansion_columns(
 pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Result<Vec<FurtherMatrix>> {
     let (n_rows, stiffness) = (input.n_file_rows(), &input.stiffness);
     let read = |matrix: &MatrixJob| {
-        let read = input.labels.placed(read_matrix(&further_source(matrix, allowance))?)?;
-        let (read, _) = take_notes(read, &mut Vec::new());
+        let mut read = read_matrix(&further_source(matrix, allowance))?;
+        if job.model.frames.is_none() {
+            check_axes(std::mem::replace(&mut read.frames, Ok(None))?, input)?;
+        }
+        let (read, _) = take_notes(input.labels.placed(read)?, &mut Vec::new());
         refuse_duplicates(&read, job.model.duplicates)?;
         let n = read.matrix.rows();
         if n != n_rows {
@@ -198,6 +205,15 @@ pub fn further_matrices(job: &Job, input: &Input, allowance: &Allowance) -> Resu
         Ok(turned(FurtherMatrix::checked(matrix, read)?, input.turning.as_ref()))
     };
     job.matrices.iter().map(read).collect()
+}
+
+/// Refuses a deck that states other axes of a node than its rows were turned by.
+///
+/// # Errors
+/// [`Error::FrameDiffer`].
+fn check_axes(of_deck: Option<NodeFrames>, input: &Input) -> Result<()> {
+    let Some((of_deck, dofs)) = of_deck.zip(input.labels.dof_map()) else { return Ok(()) };
+    deck_axes::of_model(&input.stiffness.path, &dofs, input.turning.as_ref()).check_agree(&of_deck)
 }
 
 pub(super) fn further_source<'a>(job: &MatrixJob, allowance: &'a Allowance) -> MatrixSource<'a> {
@@ -288,6 +304,9 @@ pub(super) fn read_matrix(source: &MatrixSource<'_>) -> Result<ReadMatrix> {
             _ => {
                 let mut read = format.read(source)?;
                 read.input.layout = Some(format.layout());
+                if format.layout() == Layout::Dmig && source.role != MatrixRole::Conversion {
+                    read.frames = grid_frames(&source.file);
+                }
                 Ok(read)
             }
         }
@@ -301,13 +320,17 @@ struct OwnMatrices {
     mass: Option<MatrixInput>,
     /// The rows that they name, in the order of the map where there is one; none where they name none.
     labels: Option<RowLabels>,
+    /// What their decks state of the axes of nodes.
+    frames: Vec<Result<Option<NodeFrames>>>,
 }
 
 /// K and M, of one size and without what the job refuses. Rows that they name are put in the order of the map, where there is one.
 fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNote>) -> Result<OwnMatrices> {
     let (stiffness, mass) = own_sources(model, allowance);
     let (stiffness, mass) = rayon::join(|| read_matrix(&stiffness), || mass.as_ref().map(read_matrix).transpose());
-    let (stiffness, mass) = (stiffness?, mass?);
+    let (mut stiffness, mut mass) = (stiffness?, mass?);
+    let of_deck = |matrix: &mut ReadMatrix| std::mem::replace(&mut matrix.frames, Ok(None));
+    let frames = std::iter::once(&mut stiffness).chain(&mut mass).map(of_deck).collect();
     let matrices: Vec<&ReadMatrix> = std::iter::once(&stiffness).chain(&mass).collect();
     let is_labelled = matrices.iter().any(|matrix| matrix.labels.is_some());
     let map =
@@ -326,7 +349,7 @@ fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNo
         notes.extend(model.symmetric.and_then(|triangle| take_triangle(matrix, triangle)));
         notes.extend(last_row_empty(matrix).filter(|_| !is_labelled));
     }
-    Ok(OwnMatrices { stiffness, mass, labels: is_labelled.then_some(labels) })
+    Ok(OwnMatrices { stiffness, mass, labels: is_labelled.then_some(labels), frames })
 }
 
 fn read_constraints(

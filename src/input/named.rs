@@ -59,7 +59,12 @@ pub(super) fn of_role(path: &Path, names: &[&str], role: MatrixRole) -> Result<u
             return twice(path, first, of_role.len());
         }
         let matrices = names.iter().map(|name| (*name).to_owned()).collect();
-        Error::MatrixAmbiguous { path: path.to_owned(), role: role.name(), matrices }
+        let role = match role {
+            MatrixRole::Stiffness | MatrixRole::Mass => role.name(),
+            // No name says that a matrix is one of these.
+            _ => MatrixRole::Conversion.name(),
+        };
+        Error::MatrixAmbiguous { path: path.to_owned(), role, matrices }
     })
 }
 

@@ -27,7 +27,7 @@ const FLUID: i64 = -1;
 /// Systems that refer to each other, one to the next.
 const MAX_CHAIN: usize = 64;
 
-/// The axes of all grid points whose displacements are not along those of the basic system; none where there are none.
+/// The axes of all grid points of a deck, those along the basic system among them; none where it has no grid points.
 ///
 /// # Errors
 /// Entries that are not what they should be, systems that are not there or refer to themselves, a file that cannot be read.
@@ -35,7 +35,9 @@ pub(super) fn grid_frames(path: &Path) -> Result<Option<NodeFrames>> {
     let grids = grids(path)?;
     let turned: Vec<(i64, &Grid)> =
         grids.iter().filter(|(_, grid)| !matches!(grid.cd, 0 | FLUID)).map(|(label, grid)| (*label, grid)).collect();
-    let Some((_, first)) = turned.iter().min_by_key(|(_, grid)| grid.place.line) else { return Ok(None) };
+    let along_model = grids.iter().filter(|(_, grid)| grid.cd == 0).map(|(label, _)| *label).collect();
+    let first = turned.iter().map(|(_, grid)| *grid).min_by_key(|grid| grid.place.line);
+    let Some(first) = first.or_else(|| grids.values().next()) else { return Ok(None) };
     let place = (first.place.path.to_path_buf(), first.place.line);
     let systems = Systems { defined: systems(path)?, grids: &grids, open: RefCell::default() };
     let mut axes = BTreeMap::new();
@@ -43,13 +45,26 @@ pub(super) fn grid_frames(path: &Path) -> Result<Option<NodeFrames>> {
         let system = systems.system(grid.cd, &grid.place)?;
         axes.insert(label, system.axes_at(systems.located(label, &grid.place)?.point));
     }
-    Ok(Some(NodeFrames { axes, rounded: BTreeMap::new(), place }))
+    Ok(Some(NodeFrames { axes, along_model, rounded: BTreeMap::new(), place }))
+}
+
+/// Where all grid points of a deck are in the basic system, by their labels.
+///
+/// # Errors
+/// Those of [`grid_frames`]; a position that cannot be read.
+pub(super) fn grid_points(path: &Path) -> Result<BTreeMap<i64, [f64; 3]>> {
+    let grids = grids(path)?;
+    let is_basic = grids.values().all(|grid| grid.cp == 0);
+    let defined = if is_basic { BTreeMap::new() } else { systems(path)? };
+    let systems = Systems { defined, grids: &grids, open: RefCell::default() };
+    grids.iter().map(|(label, grid)| Ok((*label, systems.located(*label, &grid.place)?.point))).collect()
 }
 
 /// A grid point.
 struct Grid {
     cp: i64,
-    position: [f64; 3],
+    /// None where it cannot be read, which matters where the position does.
+    position: Option<[f64; 3]>,
     cd: i64,
     place: Place,
 }
@@ -108,7 +123,7 @@ fn grids(path: &Path) -> Result<BTreeMap<i64, Grid>> {
         );
         // Only a point whose system matters needs a position that can be read.
         let position =
-            if matches!(cd, 0 | FLUID) { point(&card, POSITION).unwrap_or_default() } else { point(&card, POSITION)? };
+            if matches!(cd, 0 | FLUID) { point(&card, POSITION).ok() } else { Some(point(&card, POSITION)?) };
         grids.insert(label, Grid { cp, position, cd, place: card.place });
     }
     Ok(grids)
@@ -199,7 +214,8 @@ impl Systems<'_> {
         let Some(grid) = self.grids.get(&label) else {
             return Err(wrong(place, label.to_string().as_bytes(), "a grid point of the deck"));
         };
+        let position = grid.position.ok_or_else(|| wrong(&grid.place, b"", "three coordinates of a grid point"))?;
         let system = self.system(grid.cp, &grid.place)?;
-        Ok(Located { point: system.point(grid.position), off: system.off(grid.position) })
+        Ok(Located { point: system.point(position), off: system.off(position) })
     }
 }

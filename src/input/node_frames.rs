@@ -4,7 +4,7 @@
 //! node,x1,x2,x3,y1,y2,y3    x along one direction, y along what another leaves across it; directions have any length
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
@@ -31,6 +31,8 @@ const WHOLE: f64 = 1e-14;
 pub(super) struct NodeFrames {
     /// Axes of each node that has its own.
     pub(super) axes: BTreeMap<i64, Axes>,
+    /// Nodes that are stated to be along the axes of the model; a table states none.
+    pub(super) along_model: BTreeSet<i64>,
     /// Those that look rounded, and to how many decimals.
     pub(super) rounded: BTreeMap<i64, AxisDigits>,
     /// File and line of the first.
@@ -87,7 +89,12 @@ pub(super) fn node_frames(path: &Path, allowance: &Allowance) -> Result<NodeFram
         *column = table.require(name, EXPECTED, |known| known == name)?;
     }
     let third: Option<Vec<usize>> = NAMES[6..].iter().map(|name| table.find(|known| known == *name)).collect();
-    let mut frames = NodeFrames { axes: BTreeMap::new(), rounded: BTreeMap::new(), place: (path.to_owned(), 1) };
+    let mut frames = NodeFrames {
+        axes: BTreeMap::new(),
+        along_model: BTreeSet::new(),
+        rounded: BTreeMap::new(),
+        place: (path.to_owned(), 1),
+    };
     let mut digits = TableDigits::default();
     let mut lines: BTreeMap<i64, u64> = BTreeMap::new();
     while let Some(row) = table.next_row()? {

@@ -120,6 +120,15 @@ pub enum InputNote {
         /// Nodes whose rows were turned.
         n_nodes: usize,
     },
+    /// A deck states other axes of a node than the table of the job.
+    OtherAxes {
+        /// The table, which holds.
+        path: PathBuf,
+        /// The deck.
+        deck: PathBuf,
+        /// Label of the first such node.
+        node: i64,
+    },
     /// Rows were turned by axes that nothing compares with the stiffness.
     TurnedUntested {
         /// The file that gives the axes.
@@ -262,6 +271,12 @@ impl fmt::Display for InputNote {
                 "{}: {} along axes of their own; they are turned to the axes of the model, and what the tool says of them is along these",
                 file_name(path),
                 counted(*n_nodes, "node has rows", "nodes have rows")
+            ),
+            Self::OtherAxes { path, deck, node } => write!(
+                f,
+                "{}: {} states other axes of node {node}; those of the table hold",
+                file_name(path),
+                file_name(deck)
             ),
             Self::TurnedUntested { path } => write!(
                 f,

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::common_rows::{RowLabels, take_notes};
+use super::deck_axes::together;
 use super::format::{MatrixSource, ReadMatrix};
 use super::member::split_member;
 use super::model_files::{read_matrix, refuse_duplicates};
@@ -29,7 +30,7 @@ impl ReducedPair {
     /// either has.
     ///
     /// # Errors
-    /// The errors of the readers; [`crate::error::Error::RowsUnnamed`] where only one of them names its rows;
+    /// The errors of the readers; [`crate::error::Error::FrameDiffer`]; [`crate::error::Error::RowsUnnamed`] where only one of them names its rows;
     /// [`crate::error::Error::Duplicates`] where entries that repeat a position are refused.
     pub fn read([stiffness, mass]: [&Path; 2], (duplicates, allowance): (Duplicates, &Allowance)) -> Result<Self> {
         let read = |path: &Path| -> Result<ReadMatrix> {
@@ -45,7 +46,10 @@ impl ReducedPair {
                 allowance,
             })
         };
-        let (stiffness, mass) = (read(stiffness)?, read(mass)?);
+        let (mut stiffness, mut mass) = (read(stiffness)?, read(mass)?);
+        let of_deck = |matrix: &mut ReadMatrix| std::mem::replace(&mut matrix.frames, Ok(None));
+        let decks = [of_deck(&mut stiffness), of_deck(&mut mass)].into_iter().collect::<Result<Vec<_>>>()?;
+        together(decks.into_iter().flatten().collect())?;
         let labels = RowLabels::common(&[&stiffness, &mass], (None, Unnamed::Reduced))?;
         let mut notes = Vec::new();
         let mut placed = |matrix| {

@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use super::allowance::Allowance;
 use super::constraint_file::ConstraintRows;
+use super::deck_axes::together;
 use super::map_and_nodes::{Digests, SaidFrames};
-use super::member::split_member;
-use super::nastran_frames::grid_frames;
 use super::node_frames::{NodeFrames, node_frames};
 use super::{FurtherMatrix, InputNote, LoadColumn, MatrixInput, ModeColumns, QuantityRows};
 use crate::dofs::{DofMap, RoundedAxes};
@@ -22,7 +21,7 @@ use crate::sparse::{Turned, Turning};
 /// What reading the file refuses; [`Error::FrameRows`]; [`Error::FrameNodes`]; [`Error::DeckUnsupported`] for a deck with parts.
 pub(super) fn turning(
     model: &ModelJob,
-    (dofs, layout): (Option<&DofMap>, Option<Layout>),
+    (dofs, layouts): (Option<&DofMap>, [Option<Layout>; 2]),
     said: SaidFrames,
     allowance: &Allowance,
     (digests, notes): (&mut Digests, &mut Vec<InputNote>),
@@ -31,9 +30,10 @@ pub(super) fn turning(
         Some(path) => {
             let (frames, of_frames) = unchanged(path, || Ok((node_frames(path, allowance)?, digest(path)?)))?;
             digests.insert("frames", of_frames);
+            notes.extend(said.by_decks.into_iter().flatten().flatten().find_map(|deck| other_axes(&frames, &deck)));
             Some(frames)
         }
-        None => said_frames(model, layout, said, notes)?,
+        None => said_frames(layouts, said, notes)?,
     };
     let Some(frames) = frames else { return Ok(None) };
     let turned = dofs.map(|dofs| frames.turning(dofs)).transpose()?;
@@ -55,24 +55,26 @@ pub(super) fn turning(
     }
 }
 
+/// The remark that a deck states other axes of a node than the table of the job, which holds.
+fn other_axes(table: &NodeFrames, deck: &NodeFrames) -> Option<InputNote> {
+    let node = table.differing(deck)?;
+    Some(InputNote::OtherAxes { path: table.place.0.clone(), deck: deck.place.0.clone(), node })
+}
+
 /// The axes that map or deck say rows to be along.
 ///
 /// Abaqus writes rows along the axes of `*TRANSFORM`, CalculiX along those of the model; labelled matrices are of Abaqus. Where nothing
 /// tells which program it was, a note says so.
 fn said_frames(
-    model: &ModelJob,
-    layout: Option<Layout>,
+    layouts: [Option<Layout>; 2],
     said: SaidFrames,
     notes: &mut Vec<InputNote>,
 ) -> Result<Option<NodeFrames>> {
-    let by_map = match (model.dofs.is_none(), layout) {
-        // The deck of a DMIG says what its own rows are.
-        (true, Some(Layout::Dmig)) => grid_frames(&split_member(&model.stiffness).0)?,
-        _ => said.by_map?,
-    };
-    match (by_map, said.by_nodes) {
+    let decks: Vec<Option<NodeFrames>> = said.by_decks.into_iter().collect::<Result<_>>()?;
+    let by_decks = together(decks.into_iter().flatten().collect())?.filter(|frames| !frames.axes.is_empty());
+    match (by_decks, said.by_nodes) {
         (Some(frames), _) => Ok(Some(frames)),
-        (None, Some(frames)) if layout == Some(Layout::AbaqusLabels) => {
+        (None, Some(frames)) if layouts.contains(&Some(Layout::AbaqusLabels)) => {
             if frames.axes.is_empty() {
                 let ((path, line), found) = (frames.place, "*TRANSFORM in a deck with parts".to_owned());
                 let advice = "give the axes of the nodes with `model.frames`";

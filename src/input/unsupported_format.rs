@@ -143,7 +143,7 @@ const FORMATS: [Foreign; 16] = [
         begins: is_bulk,
         found: "a Nastran deck (.bdf)",
         for_matrix: "have the program write its matrices (DMIG or OP4)",
-        for_table: "take the nodes by `meshio convert deck.bdf mesh.xdmf`",
+        for_table: "give it as the nodes or as the dof map, which are read from GRID entries",
     },
 ];
 

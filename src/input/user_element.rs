@@ -231,6 +231,7 @@ impl Element {
                 order: OrderSource::SizeLine,
                 last_line: LastLine::Terminated,
                 labels: None,
+                frames: Ok(None),
             });
         };
         let mut order: Vec<u32> = (0..n).collect();
@@ -243,7 +244,7 @@ impl Element {
         let mut input = entries.renumbered(&rank).into_matrix(source, (n, declared), lines.digest()?)?;
         input.notes.given = Given::Whole;
         let labels = Some(order.iter().map(|row| labels[*row as usize]).collect());
-        Ok(ReadMatrix { input, order: OrderSource::Labels, last_line: LastLine::Terminated, labels })
+        Ok(ReadMatrix { input, order: OrderSource::Labels, last_line: LastLine::Terminated, labels, frames: Ok(None) })
     }
 }
 

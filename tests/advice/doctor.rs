@@ -273,6 +273,23 @@ fn what_goes_with_the_nodes_is_said() {
     assert_eq!(found["severity"], "error");
 }
 
+/// Rows that were turned by axes of few digits fit no coordinates: without these the pair is looked at, and no second fault is made of it.
+#[test]
+fn axes_of_few_digits_are_one_finding() {
+    let (s, c) = 0.7f64.sin_cos();
+    let model = supel_models::transform::in_local_frames(
+        &steel_brick(),
+        &[[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]],
+        |node| node == 15,
+    );
+    let place = Place::with(&model);
+    place.write("frames.csv", format!("node,x1,x2,x3,y1,y2,y3\n15,{c:.3},{s:.3},0,-{s:.3},{c:.3},0\n").as_bytes());
+    let found = examined(&place, &format!("{ALL} --frames frames.csv"), ExitCode::CheckFailed);
+    let told = finding(&found, "E-FRAME-DIGITS");
+    assert!(told.contains("\"went_on\":\"without the nodes\""), "{told}");
+    assert!(findings(&found).iter().all(|(code, _)| *code == "E-FRAME-DIGITS" || !code.starts_with("E-")), "{found}");
+}
+
 /// What leaves frequencies open decides which lines help: triangles that differ are no matter of digits.
 #[test]
 fn advice_for_uncertain_frequencies_is_that_which_helps() {

@@ -2,6 +2,7 @@
 
 mod alike;
 mod axes;
+mod axes_of_decks;
 mod cache;
 mod failures;
 mod few_digits;

@@ -144,7 +144,7 @@ const ALIKE: f64 = 1e-9;
 
 /// The superelement in a folder is that of a model along its own axes, by the same reduction.
 #[track_caller]
-fn assert_is_that_of(place: &Place, sound: &Model, reduction: &str) {
+pub(crate) fn assert_is_that_of(place: &Place, sound: &Model, reduction: &str) {
     let expected = Place::with(sound);
     expected.reduce(&expected.model_flags(), reduction).expect(ExitCode::Done);
     let [expected, found] = [&expected, place].map(|place| place.superelement("x.supel"));

@@ -86,8 +86,7 @@ impl Compared<'_> {
 
     /// What the digits of the basis leave of a motion.
     fn of_digits(&self) -> f64 {
-        let rounding = self.foreign.rounding;
-        if rounding > f64::EPSILON { dense::NOISE_FACTOR * rounding } else { 0.0 }
+        self.foreign.of_digits()
     }
 
     /// M-11.

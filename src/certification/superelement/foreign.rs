@@ -109,6 +109,11 @@ impl Foreign {
         if share.is_nan() { f64::INFINITY } else { share }
     }
 
+    /// What the digits of the basis leave of a motion.
+    pub(super) fn of_digits(&self) -> f64 {
+        if self.rounding > f64::EPSILON { dense::NOISE_FACTOR * self.rounding } else { 0.0 }
+    }
+
     /// Whether K̂ or M̂ has fewer digits than double precision.
     pub(super) fn has_few_digits(&self) -> bool {
         [&self.stiffness, &self.mass].iter().any(|pair| pair.rounding[0].max(pair.rounding[1]) > f64::EPSILON)

@@ -2,16 +2,21 @@
 //!
 //! Every superelement of modes has some modes of its component exactly: Craig and Bampton's those with the interface held, Herting's and
 //! Rubin's those with it free. Up to the highest of them none may be missing. A mode that is lost is not gone from the basis: static
-//! columns make up for most of its shape, and what is left of it is a frequency that is far off.
+//! columns make up for most of its shape, and what is left of it is a frequency that is far off. One that is there with a share of others, as
+//! an eigensolver that stops early leaves, or the digits of the basis, has a frequency that is off by the square of that share: up to the δ
+//! at which certified pairs are taken for eigenvectors it is not left out.
 
 use super::files::ForeignSuperelement;
 use super::interface::Interface;
 use crate::certification::certified::certified_pairs;
 use crate::certification::claims::Claims;
+use crate::certification::independence::RECOGNISED;
+use crate::certification::judgement::{MOST_OF_DIGITS, of_rounding};
 use crate::certification::listing::first_of;
+use crate::certification::measured::Measured;
 use crate::certification::pair::MissingMode;
 use crate::dense;
-use crate::eigen::{Spectral, rayleigh_quotients};
+use crate::eigen::Spectral;
 use crate::error::Result;
 use crate::input::ForeignModes;
 use crate::job::ReductionJob;
@@ -38,7 +43,7 @@ pub enum Own {
 pub struct LeftOut {
     own: Own,
     /// How many it has.
-    n_exact: usize,
+    n_own: usize,
     /// The highest of them, in Hz.
     up_to_hz: f64,
     missing: Vec<MissingMode>,
@@ -65,19 +70,31 @@ pub fn left_out(
     let Some(modes) = modes_of(given, &moving, (n_rigid, 2 * amplitudes.len()))? else { return Ok(None) };
     let claims = Claims::of(component.partition, &modes, None)?;
     let problem = Search::new(component, job)?.problem;
-    let (_, errors, _) = rayleigh_quotients(problem.modal(), claims.shapes.as_ref());
-    let exact: Vec<usize> = (0..claims.count()).filter(|mode| errors[*mode].backward <= EXACT).collect();
+    let measured = problem.with_definite_operator(|operator| Ok(Measured::of(problem.modal(), operator, &claims)))?;
+    let exact: Vec<usize> = (0..claims.count()).filter(|mode| is_exact(&claims, &measured, *mode)).collect();
     if exact.is_empty() || 2 * exact.len() < amplitudes.len() {
         return Ok(None);
     }
-    let found = certified_pairs(component, job, &claims.only(&exact), None)?;
+    let highest = exact.iter().map(|mode| measured.lambda[*mode]).fold(0.0, f64::max);
+    let is_there = |mode: &usize| {
+        is_exact(&claims, &measured, *mode)
+            || measured.lambda[*mode] <= highest && measured.lacking[*mode] <= RECOGNISED
+    };
+    let there: Vec<usize> = (0..claims.count()).filter(is_there).collect();
+    let found = certified_pairs(component, job, &claims.only(&there), None)?;
     Ok(Some(LeftOut {
         own,
-        n_exact: exact.len(),
+        n_own: there.len(),
         up_to_hz: found.band_hz[1],
         missing: found.missing,
         n_not_sought: found.n_not_sought,
     }))
+}
+
+/// Whether a shape is a mode exactly, as far as the digits of the basis tell.
+fn is_exact(claims: &Claims, measured: &Measured, mode: usize) -> bool {
+    let of_digits = of_rounding(claims, measured, mode).min(MOST_OF_DIGITS.sqrt());
+    measured.backward[mode] <= EXACT || measured.lacking[mode] <= of_digits
 }
 
 /// The lowest modes of K̂ and M̂ with some coordinates moving, as motions of the rows of the files: `n` behind the first few. None where
@@ -105,7 +122,13 @@ fn modes_of(given: &ForeignSuperelement, moving: &[usize], (first, n): (usize, u
 /// Σ ψ_j q_j.
 fn motion(given: &ForeignSuperelement, moving: &[usize], q: &[f64]) -> Vec<f64> {
     let mut motion = vec![0.0; given.basis.columns.first().map_or(0, Vec::len)];
-    moving.iter().zip(q).for_each(|(at, value)| dense::add_scaled(&mut motion, *value, &given.basis.columns[*at]));
+    // Of unit length, so that roundings of columns, which add up like the root of their squares, are what they are in each of them.
+    let length = q.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let share = |value: &f64| if length > 0.0 { value / length } else { 0.0 };
+    moving
+        .iter()
+        .zip(q)
+        .for_each(|(at, value)| dense::add_scaled(&mut motion, share(value), &given.basis.columns[*at]));
     motion
 }
 
@@ -119,7 +142,7 @@ impl LeftOut {
         };
         let named = self.missing.iter().map(|mode| format!("{} Hz", quantity(mode.frequency_hz, 7)));
         let listed = first_of(named, (LISTED, n_missing));
-        let has = format!("{} {held} up to {} Hz", counted(self.n_exact, "mode", "modes"), quantity(self.up_to_hz, 7));
+        let has = format!("{} {held} up to {} Hz", counted(self.n_own, "mode", "modes"), quantity(self.up_to_hz, 7));
         Check {
             id: "C-12",
             name: "none of its own modes is left out",

@@ -24,6 +24,8 @@ pub(super) enum Convention {
 pub(super) enum Told {
     /// Whether rows or columns are compressed.
     Columns,
+    /// That, and that the matrix is symmetric: one triangle stands for both.
+    Symmetric,
     /// Nothing.
     Nothing,
     /// In a text, which is not read, whether rows or columns are compressed, and whether one triangle stands for both.

@@ -1,6 +1,7 @@
 //! Matrices in the HDF5 database of MSC Nastran: `/NASTRAN/RESULT/MATRIX/GENERAL` has a table of matrices, one of columns and one of
 //! entries, in which all matrices follow one another.
 
+use super::convention::Told;
 use super::group::Group;
 use super::nastran_records::{Column, Entry, Identity};
 use crate::error::{Error, Result};
@@ -8,6 +9,8 @@ use crate::input::MatrixRole;
 use crate::input::compressed::{Compressed, Major};
 use crate::input::named::chosen;
 
+/// FORM of a symmetric matrix, of which a table may have both triangles or one.
+const SYMMETRIC: i64 = 6;
 const PLACE: &str = "NASTRAN/RESULT/MATRIX/GENERAL";
 
 /// The tables of matrices, where a file has them.
@@ -16,8 +19,8 @@ pub(super) fn tables<'a>(root: &Group<'a>) -> Result<Option<Group<'a>>> {
     Ok(group.find_dataset("IDENTITY")?.map(|_| group))
 }
 
-/// The matrix that is wanted, by name or role.
-pub(super) fn read(group: &Group<'_>, wanted: Option<&str>, role: MatrixRole) -> Result<(Compressed, String)> {
+/// The matrix that is wanted, by name or role, its name, and what the table says of it.
+pub(super) fn read(group: &Group<'_>, wanted: Option<&str>, role: MatrixRole) -> Result<(Compressed, String, Told)> {
     let path = group.h5().path();
     let identities: Vec<Identity> = group.dataset("IDENTITY")?.records_with_text()?;
     let names: Vec<String> = identities.iter().map(|identity| identity.name.as_str().trim().to_owned()).collect();
@@ -47,5 +50,6 @@ pub(super) fn read(group: &Group<'_>, wanted: Option<&str>, role: MatrixRole) ->
     let parts = ["COLUMN", "DATA", "DATA"].map(|table| format!("{} of {name}", group.child_name(table)));
     let count = |number: i64| u64::try_from(number).unwrap_or(u64::MAX);
     let shape = [count(identity.rows), count(identity.columns)];
-    Ok((Compressed::new(Major::Columns, shape, pointers, indices, values, parts), name))
+    let told = if identity.form == SYMMETRIC { Told::Symmetric } else { Told::Columns };
+    Ok((Compressed::new(Major::Columns, shape, pointers, indices, values, parts), name, told))
 }

@@ -19,7 +19,7 @@ use crate::input::indices::Indices;
 use crate::input::unsupported_format::{self, Wanted};
 use crate::input::{Allowance, MatrixInput, MatrixRole, digits_of};
 use crate::regular_file::digest;
-use crate::sparse::{Declared, ENTRY_BYTES, ROW_BYTES, TRIPLET_BYTES};
+use crate::sparse::{Declared, ENTRY_BYTES, Given, ROW_BYTES, TRIPLET_BYTES};
 
 /// Reads a square sparse matrix from an HDF5 file: MATLAB v7.3 and PETSc (`MATLAB_sparse`, `jc`, `ir`, `data`), anndata,
 /// h5sparse, Exudyn, Octave, Julia, Binsparse, the tables of MSC Nastran, or plain `data`, `indices`, `indptr`.
@@ -56,8 +56,8 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
     let root = Group::root(&h5)?;
     let found = match nastran::tables(&root)? {
         Some(tables) => {
-            let (compressed, name) = nastran::read(&tables, group, role)?;
-            Found { compressed, name, digits: u32::MAX, told: Told::Columns }
+            let (compressed, name, told) = nastran::read(&tables, group, role)?;
+            Found { compressed, name, digits: u32::MAX, told }
         }
         None => match group.map(|name| root.find_dense(name)).transpose()?.flatten() {
             Some(dataset) => Found::dense(&dataset)?,
@@ -69,11 +69,15 @@ fn read_matrix_once(path: &Path, group: Option<&str>, role: MatrixRole, allowanc
     let digits = digits_of(compressed.values()).at_most(digits);
     let n = compressed.check(h5.path(), &name)?;
     h5.hold((TRIPLET_BYTES + ENTRY_BYTES) * compressed.values().len() as u64 + ROW_BYTES * n as u64)?;
-    let (matrix, notes) = compressed.into_triplets(h5.path())?.assemble(n, declared, h5.path())?;
+    let (matrix, mut notes) = compressed.into_triplets(h5.path())?.assemble(n, declared, h5.path())?;
     // It would be another matrix with its rows taken for columns; a reduced one is symmetric to rounding, or judged for that.
-    let is_ambiguous = role.takes_any() && role != MatrixRole::Reduced && told != Told::Columns;
+    let is_ambiguous =
+        role.takes_any() && role != MatrixRole::Reduced && !matches!(told, Told::Columns | Told::Symmetric);
     if is_ambiguous && first_breach(&matrix, Symmetry::Symmetric).is_some() {
         return Err(Error::Hdf5Orientation { path: h5.path().to_owned(), group: name });
+    }
+    if told == Told::Symmetric {
+        notes.given = Given::Whole;
     }
     h5.keep(ENTRY_BYTES * matrix.nnz() as u64 + ROW_BYTES * n as u64)?;
     Ok(MatrixInput { matrix, notes, digits, path: path.to_owned(), layout: None, digest: digest(path)? })
@@ -128,6 +132,6 @@ impl Found {
     /// one has no diagonal.
     fn declared(&self, role: MatrixRole) -> Declared {
         let may_be_half = role == MatrixRole::Conversion && self.told == Told::InText && self.compressed.has_diagonal();
-        if may_be_half { Declared::General } else { role.undeclared() }
+        if may_be_half || self.told == Told::Symmetric { Declared::General } else { role.undeclared() }
     }
 }

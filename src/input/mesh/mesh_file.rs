@@ -55,7 +55,7 @@ impl Format for MeshFile {
 impl NodeFormat for MeshFile {
     fn read(&self, path: &Path, allowance: &Allowance) -> Result<ReadNodes> {
         let CellMesh { nodes, data_digest, frames, .. } = (self.read)(path, allowance)?;
-        Ok(ReadNodes { nodes, data_digest, frames })
+        Ok(ReadNodes { frames, ..ReadNodes::along_the_axes(nodes, data_digest) })
     }
 
     fn referenced_files(&self, path: &Path) -> Vec<PathBuf> {

@@ -47,6 +47,18 @@ fn shapes_of_five_digits_are_right() {
     }
 }
 
+/// Shapes of half precision, which has eleven bits, in a text that has all their digits: as right as those of three digits.
+#[test]
+fn shapes_of_half_precision_are_right() {
+    let mut pairs = short(17, 17);
+    for value in pairs.shapes.iter_mut().flatten().filter(|value| **value != 0.0) {
+        let unit = (value.abs().log2().floor() - 10.0).exp2();
+        *value = (*value / unit).round() * unit;
+    }
+    let found = document(&place_of(&bar(), &pairs), "", ExitCode::Done);
+    assert_eq!(verdict(&found, "M-01"), Some("warn"), "{found}");
+}
+
 /// Numbers with one decimal are off by half of it, which is much of a small one.
 #[test]
 fn decimals_of_frequencies_are_known() {

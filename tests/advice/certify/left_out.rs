@@ -81,6 +81,39 @@ fn a_lost_mode_fails_and_is_the_one_that_is_named() {
     }
 }
 
+/// What an eigensolver that stops early leaves of other modes in one makes its frequency wrong by the square of that: the mode is there.
+#[test]
+fn a_mode_with_a_share_of_another_is_not_left_out() {
+    let right = Foreign::craig_bampton(&bar(), &ends(), N_MODES);
+    let more = Foreign::craig_bampton(&bar(), &ends(), 4 * N_MODES);
+    for share in [1e-6, 1e-5, 1e-4, 1e-3] {
+        let mut basis = right.basis.clone();
+        (0..basis.nrows()).for_each(|row| basis[(row, 2)] += share * more.basis[(row, 4 * N_MODES - 1)]);
+        let found = document(&bar(), &Foreign::of(&bar(), basis), ExitCode::Done);
+        assert_eq!(verdict(&found, "C-12"), Some("pass"), "{share}: {found}");
+        assert!(told(&found, "C-12").contains("9 modes with the interface held"), "{share}: {found}");
+    }
+}
+
+#[test]
+fn modes_of_few_digits_are_not_left_out() {
+    let right = Foreign::craig_bampton(&bar(), &ends(), N_MODES);
+    for digits in 3..=7 {
+        let rounded = |value: f64| format!("{value:.*e}", digits - 1).parse().expect("a number");
+        let of = |right: &Foreign| {
+            Mat::from_fn(right.basis.nrows(), right.basis.ncols(), |i, j| rounded(right.basis[(i, j)]))
+        };
+        let found = document(&bar(), &Foreign { basis: of(&right), ..right.clone() }, ExitCode::Done);
+        assert_eq!(verdict(&found, "C-12"), Some("pass"), "{digits} digits: {found}");
+        // And so are the comparisons at its interface.
+        assert_ne!(verdict(&found, "M-33"), Some("warn"), "{digits} digits: {found}");
+        // A lost one is told in few digits, too.
+        let lost = without(&right, 3);
+        let found = document(&bar(), &Foreign { basis: of(&lost), ..lost }, ExitCode::CheckFailed);
+        assert_eq!(verdict(&found, "C-12"), Some("fail"), "{digits} digits: {found}");
+    }
+}
+
 /// Modes that nobody needs may be left out, and few modes are no lost ones.
 #[test]
 fn what_is_left_out_on_purpose_is_a_warning_and_what_is_coarse_none() {

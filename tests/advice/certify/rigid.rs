@@ -63,3 +63,19 @@ fn a_result_of_rigid_body_modes_alone_is_certified() {
     let found = document(&place_of(&bar(), &pairs), "", ExitCode::CheckFailed);
     assert_eq!((verdict(&found, "C-05"), of_kind(&found, "inexact").len()), (Some("fail"), 6), "{found}");
 }
+
+/// All motions of a point mass are rigid-body motion, and no force is left of any.
+#[test]
+fn a_point_mass_without_stiffness_is_certified() {
+    let place = supel_testing::place::Place::new();
+    let diagonal = |values: [f64; 6]| {
+        let lines: String = (1..).zip(values).map(|(row, value)| format!("{row} {row} {value}\n")).collect();
+        format!("%%MatrixMarket matrix coordinate real symmetric\n6 6 6\n{lines}")
+    };
+    place.write("K.mtx", diagonal([0.0; 6]).as_bytes());
+    place.write("M.mtx", diagonal([2.0, 2.0, 2.0, 0.1, 0.1, 0.1]).as_bytes());
+    let shapes: Vec<Vec<f64>> = (0..6).map(|i| (0..6).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    super::Pairs { hertz: vec![0.0; 6], shapes }.write(&place);
+    let found = document(&place, "", ExitCode::Done);
+    assert_eq!((verdict(&found, "M-01"), of_kind(&found, "rigid-body").len()), (Some("pass"), 6), "{found}");
+}

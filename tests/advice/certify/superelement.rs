@@ -122,6 +122,16 @@ fn a_right_one_is_certified_and_compared_at_its_interface() {
     assert!(free >= again - 1e-6 && again > 0.0, "{free} and {again}");
 }
 
+/// What keeps all rows has no modes with its interface held, and none that it could lack.
+#[test]
+fn one_that_keeps_all_rows_is_certified() {
+    let model = supel_models::brick([2, 1, 1], [1.0, 0.1, 0.1], &supel_models::Material::STEEL_SI);
+    let foreign = Foreign::of(&model, Mat::identity(model.n, model.n));
+    let found = document(&model, &foreign, ExitCode::Done);
+    assert_eq!(found["n_interface"], Value::from(model.n), "{found}");
+    assert_eq!(super::verdict(&found, "C-07"), Some("pass"), "{found}");
+}
+
 #[test]
 fn matrices_of_another_basis_are_named_by_their_coordinates() {
     let right = Foreign::craig_bampton(&steel_brick(), &interface(), 12);

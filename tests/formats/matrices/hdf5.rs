@@ -66,6 +66,17 @@ fn small_tables_of_msc_nastran() {
     assert!(input.stiffness.matrix == reference.stiffness.matrix && input.mass.matrix == reference.mass.matrix);
 }
 
+/// FORM 6 is symmetric, whatever the matrix is wanted for: one triangle stands for both.
+#[test]
+fn a_triangle_of_a_symmetric_matrix_of_msc_nastran_is_the_whole_of_it() {
+    let fixtures = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/hdf5");
+    let [whole, half] = ["nastran.h5:/KGG", "nastran_triangle.h5:/KGG"].map(|name| {
+        let matrix = SingleMatrix { file: fixtures.join(name), layout: None, dofs: None };
+        matrix.read(&Allowance::of(None)).expect("a matrix").input.matrix
+    });
+    assert!(whole == half && whole.get(0, 1) == Some(&-1.0));
+}
+
 #[test]
 fn tables_of_msc_nastran() {
     let Some(pairs) = supel_testing::corpus::corpus() else { return };

@@ -86,7 +86,7 @@ fn no_deck_includes_a_file_outside_its_folder_or_itself() {
         ("../second.bdf", "outside its folder"),
         ("LOGICAL:second.bdf", "outside its folder"),
         ("absent.bdf", "which is not there"),
-        ("deck.bdf", "16 deep"),
+        ("deck.bdf", "by 16 files that include each other – expected files that do not include themselves"),
     ] {
         let deck = folder.write("decks/deck.bdf", format!("BEGIN BULK\n$\nINCLUDE '{reference}'\n{HEAD}"));
         let error = read(&deck, None).err().unwrap_or_else(|| panic!("{reference} was read"));
@@ -109,6 +109,34 @@ fn decks_end_at_enddata() {
     }
     folder.write("end.bdf", format!("{SECOND}ENDDATA\n"));
     assert_whole(&folder.write("deck.bdf", format!("{HEAD}INCLUDE 'end.bdf'\nDMIG,K,1,2,,1,2,77.\n")));
+}
+
+/// Nastran reads nothing behind a dollar, in whatever fields.
+#[test]
+fn comments_behind_fields_are_passed_over() {
+    let folder = Folder::new();
+    for deck in [
+        "DMIG,K,0,6,2,0 $ head\nDMIG,K,1,1,,1,1,2.0 $ the first, of two\nDMIG,K,1,2,,1,2,3.$\n  $ between\n,1,1,-1.,$ last\n".to_owned(),
+        format!(
+            "{}{}{}{}",
+            small(&["DMIG", "K", "0", "6", "2", "0", "$ head"]),
+            small(&["DMIG", "K", "1", "1", "", "1", "1", "2.0$", "short"]),
+            small(&["DMIG", "K", "1", "2", "", "1", "2", "3.", "", "$ next"]),
+            small(&["", "1", "1", "-1.", "$ a comment that goes on for more than a field"]),
+        ),
+        "DMIG*   K                              0               6               2 $\nDMIG*   K                              1               1 $ column\n\
+         *                      1               1 2.0$\n$\nDMIG*   K                              1               2\n\
+         *                      1               2 3. $ value\n*                      1               1 -1. $\n"
+            .to_owned(),
+    ] {
+        assert_whole(&folder.write("deck.bdf", deck));
+    }
+    let grid = "GRID,1,,0.,0.,0.,40 $ ,9\nCORD2R,40,,0.,0.,0.,0.,0.,1. $ ,9\n,1.,0.,0.$\n";
+    let rows = folder.write("rows.bdf", format!("{grid}SPOINT,7 $ ,8\n"));
+    assert_eq!(
+        read(&folder.write("deck.bdf", format!("{HEAD}{SECOND}")), Some(&rows)).expect("rows").input.matrix.rows(),
+        7
+    );
 }
 
 /// A card of fields of eight columns.

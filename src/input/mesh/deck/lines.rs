@@ -121,9 +121,9 @@ impl DeckLines {
     /// Goes on with another file of the folder, and then with the lines behind this one.
     pub(super) fn include(&mut self, reference: &str) -> Result<()> {
         let (path, line) = self.at(self.place);
-        let refuse = |reason| {
+        let refuse = |[reason, expected]: [&'static str; 2]| {
             let reference = excerpt(reference.as_bytes());
-            Error::DeckInclude { path: path.clone(), line, reference, reason }
+            Error::DeckInclude { path: path.clone(), line, reference, reason, expected }
         };
         let file = included_file(&self.files[0], reference, (self.open.len(), self.files.len())).map_err(refuse)?;
         let text = BufReader::new(Source::open(&file)?);

@@ -7,7 +7,7 @@
 //! xa, ya, za, xb, yb, zb
 //! ```
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::keyword::Keyword;
 use super::lines::{DeckLines, Place};
@@ -97,7 +97,7 @@ pub(super) fn frames(lines: &DeckLines, transforms: &[Transform], nodes: Option<
             axes.insert(nodes.labels[node], own);
         }
     }
-    Ok(Some(NodeFrames { axes, rounded: BTreeMap::new(), place: lines.at(first.place) }))
+    Ok(Some(NodeFrames { axes, along_model: BTreeSet::new(), rounded: BTreeMap::new(), place: lines.at(first.place) }))
 }
 
 /// The nodes of a set, whatever the case of its name, or the one of this label.
