@@ -250,3 +250,25 @@ fn antiresonances_narrower_than_the_damping_are_found() {
         assert!(scanned <= response.worst_db + slack, "{ratio}: {scanned} dB at {top} Hz, told {}", response.worst_db);
     }
 }
+
+/// Frames of beams with more outputs than are followed between samples: none errs more by itself than all of them together do.
+#[test]
+fn an_output_that_errs_between_samples_is_found_among_many() {
+    for seed in [1, 2, 3, 4] {
+        let mut random = supel_models::SplitMix64::new(seed);
+        let nodes: Vec<[f64; 3]> = (0..24).map(|k| [0.1 * f64::from(k), random.uniform(), random.uniform()]).collect();
+        let edges: Vec<[usize; 2]> = (1..24).map(|node| [node - 1, node]).chain([[0, 7], [5, 13], [9, 20]]).collect();
+        let model = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent);
+        let files = Files::new(model, vec![direct("a", &[1]), direct("b", &[24])]);
+        let found = |nodes: &str| {
+            let scene = format!("damping = {{ ratio = 0.01 }}\nboundaries = []\noutputs = {{ nodes = [{nodes}] }}");
+            let outcome = files.reduce("herting", "count = 6", &scene);
+            response(&outcome.report.body.preservation).worst_db
+        };
+        let all = found(&(2..24).map(|node| node.to_string()).collect::<Vec<_>>().join(", "));
+        for node in 2..24 {
+            let alone = found(&node.to_string());
+            assert!(alone <= 1.002 * all, "{seed}: {alone} dB at node {node} alone, {all} dB of all");
+        }
+    }
+}
