@@ -2720,7 +2720,7 @@ pub enum Error {
         /// What was found, in words.
         found: String,
         /// The largest energy of a motion by the coordinates, relative to another; of nodes out of place their distance, relative to
-        /// the size of the component.
+        /// the size of the component; of motions without energy that cost as little by the coordinates how many there are.
         energy: f64,
         /// What rounding of coordinates may make of it.
         expected: f64,

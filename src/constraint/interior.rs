@@ -1,7 +1,7 @@
 //! K_II factored, or the reason why it cannot be.
 
 use crate::error::{Error, Result};
-use crate::factor::{Analysis, Cholesky, Storage, few_digits};
+use crate::factor::{Analysis, Cholesky, Storage, boundary_of, few_digits, without_energy};
 use crate::partition::Partition;
 use crate::rigid::{InterfaceRank, RigidBodyModes, or_lack_of_rank, shift_of_factor};
 
@@ -10,7 +10,7 @@ use crate::rigid::{InterfaceRank, RigidBodyModes, or_lack_of_rank, shift_of_fact
 ///
 /// # Errors
 /// K_II is not definite; the message names the true reason first: the digits of the data, then an interface that leaves a
-/// motion free. No memory.
+/// motion free, rigid-body or mechanism. No memory.
 pub fn interior_factor<'a>(
     partition: &'a Partition,
     analysis: &'a Analysis,
@@ -32,5 +32,15 @@ pub fn interior_factor<'a>(
 
 fn refused(error: Error, analysis: &Analysis, partition: &Partition, rigid: &RigidBodyModes) -> Error {
     let error = few_digits(error, analysis, (&partition.stiffness).into(), partition.precision.stiffness);
-    or_lack_of_rank(error, partition, rigid)
+    or_mechanism(or_lack_of_rank(error, partition, rigid), analysis, partition)
+}
+
+/// The motion that the interface leaves free, where the digits tell it from all others: more of them would not hold it.
+fn or_mechanism(error: Error, analysis: &Analysis, partition: &Partition) -> Error {
+    let Error::DigitsTooFew { .. } = error else { return error };
+    let stiffness = (&partition.stiffness).into();
+    match without_energy(analysis, stiffness, partition.precision.stiffness) {
+        Ok(Some(dof)) => Error::NotDefinite { dof: partition.name_of(dof), boundary: boundary_of(analysis, stiffness) },
+        _ => error,
+    }
 }

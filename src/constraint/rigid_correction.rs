@@ -124,13 +124,15 @@ pub(super) fn left_inverse_by(partition: &Partition, inside: &[f64], u_b: MatRef
     let length = |j: usize| (0..u_b.ncols()).map(|k| u_b[(j, k)].powi(2)).sum::<f64>().sqrt();
     let scale = scales(partition).split_off(partition.n_internal);
     let largest = (0..n_b).map(|j| scale[j] * length(j)).fold(0.0, f64::max);
-    let moving = (0..n_b).filter(|j| scale[*j] * length(*j) > AT_REST * largest);
-    // A dof without stiffness has no error, and may be the only one of a motion: it counts as much as the least of the others that move.
-    let least = moving.map(|j| own(j) * length(j)).filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(1.0);
-    let weight = |j: usize| match (own(j), length(j)) {
-        (own, _) if own > 0.0 => own,
-        (_, length) if length > 0.0 => least / length,
-        _ => 1.0,
+    let moves = |j: usize| scale[j] * length(j) > AT_REST * largest;
+    // A dof without stiffness has no error, and may be the only one of a motion: it counts as much as the least of the others that move, and
+    // where nothing but rounding moves it not at all.
+    let sizes = (0..n_b).filter(|j| moves(*j)).map(|j| own(j) * length(j));
+    let least = sizes.filter(|size| *size > 0.0).reduce(f64::min).unwrap_or(1.0);
+    let weight = |j: usize| match own(j) {
+        own if own > 0.0 => own,
+        _ if moves(j) => least / length(j),
+        _ => 0.0,
     };
     let weight: Vec<f64> = (0..n_b).map(weight).collect();
     let weighted = Mat::from_fn(n_b, u_b.ncols(), |i, j| weight[i] * u_b[(i, j)]);

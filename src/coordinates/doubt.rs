@@ -18,7 +18,9 @@ const NEARLY_ALL: f64 = 0.9;
 pub(super) struct Doubt {
     /// Its number.
     pub(super) body: usize,
-    /// Rows on which a translation does not vanish.
+    /// Its rows that belong to nodes.
+    pub(super) n_rows: usize,
+    /// Rows of nodes on which a translation does not vanish.
     pub(super) n_touched: usize,
     /// Rows of nodes that no support touches, ascending.
     pub(super) untouched: Vec<usize>,
@@ -45,7 +47,8 @@ pub(super) fn doubts(motions: &Motions<'_>, nodes: &Nodes, held: &[Direction]) -
         let n_touched = body.rows.iter().filter(|row| nodes.is_touched[nodes.of(**row)]).count();
         let is_in_doubt = n_touched > 0 || !costly.is_empty() || is_blind(motions, nodes, body, held);
         let untouched = || body.rows.iter().copied().filter(|row| nodes.is_untouched(*row)).collect();
-        is_in_doubt.then(|| Doubt { body: number, n_touched, untouched: untouched(), costly })
+        let n_rows = body.rows.iter().filter(|row| nodes.is_placed(**row)).count();
+        is_in_doubt.then(|| Doubt { body: number, n_rows, n_touched, untouched: untouched(), costly })
     };
     motions.bodies.iter().enumerate().filter_map(of_body).collect()
 }
@@ -66,7 +69,7 @@ fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[D
     let look = |axis: usize| {
         let rotation = FIRST_ROTATION + axis;
         let is_free = !is_touched && body.rows.iter().all(|row| !nodes.lacks_displacement(*row, axis));
-        let is_witness = |row: &usize| is_free || nodes.is_witness(*row, axis);
+        let is_witness = |row: &usize| is_free && nodes.is_placed(*row) || nodes.is_witness(*row, axis);
         let witnesses: Vec<usize> = body.rows.iter().copied().filter(is_witness).collect();
         let residual = |motion: usize| motions.residual(body, &witnesses, motion);
         let noise = (0..FIRST_ROTATION).map(residual).fold(motions.rounding().max(body.lever_rounding), f64::max);
@@ -101,7 +104,7 @@ fn turning_costs(motions: &Motions<'_>, body: &Body, rotation: usize) -> bool {
 /// What is to be said where supports touch nearly all rows of the bodies that they hold.
 pub(super) fn untested(motions: &Motions<'_>, doubts: &[Doubt]) -> Option<Finding> {
     let held = || doubts.iter().filter(|doubt| doubt.n_touched > 0);
-    let n_rows: usize = held().map(|doubt| motions.bodies[doubt.body].rows.len()).sum();
+    let n_rows: usize = held().map(|doubt| doubt.n_rows).sum();
     let n_touched: usize = held().map(|doubt| doubt.n_touched).sum();
     let is_untested = n_touched as f64 > NEARLY_ALL * n_rows as f64;
     let of_body = |doubt: &Doubt| {

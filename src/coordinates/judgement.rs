@@ -157,9 +157,9 @@ impl Case<'_> {
         Err(Error::CoordinatesDoNotFit { found, energy, expected, dof })
     }
 
-    /// Whether supports touch most rows of the bodies in doubt.
+    /// Whether supports touch most rows of the nodes of the bodies in doubt.
     fn are_mostly_touched(&self) -> bool {
-        let n_rows: usize = self.doubts.iter().map(|doubt| self.motions.bodies[doubt.body].rows.len()).sum();
+        let n_rows: usize = self.doubts.iter().map(|doubt| doubt.n_rows).sum();
         let n_touched: usize = self.doubts.iter().map(|doubt| doubt.n_touched).sum();
         2 * n_touched > n_rows
     }
@@ -287,13 +287,20 @@ impl Case<'_> {
 
     fn misfit(&self, zeros: &Zeros, costly: &[usize], cost: Cost, dof: String) -> Error {
         let Cost { energy, of, expected } = cost;
-        let found = format!(
-            "it has {} motions without energy, of which the coordinates explain {}; by them {} cost up to {} of {of}, most of it at {dof}",
-            zeros.count(),
-            self.n_explained,
-            named(costly),
-            quantity(energy, 2)
-        );
+        let (n_zero, n_explained) = (zeros.count(), self.n_explained);
+        let mut found =
+            format!("it has {n_zero} motions without energy, of which the coordinates explain {n_explained}");
+        if n_zero > n_explained && (costly.is_empty() || energy <= expected) {
+            // Nothing is wrong with what they cost: there are too many.
+            return Error::CoordinatesDoNotFit {
+                found,
+                energy: n_zero as f64,
+                expected: (n_explained + 1) as f64,
+                dof,
+            };
+        }
+        let cost = quantity(energy, 2);
+        found += &format!("; by them {} cost up to {cost} of {of}, most of it at {dof}", named(costly));
         Error::CoordinatesDoNotFit { found, energy, expected, dof }
     }
 }

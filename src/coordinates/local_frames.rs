@@ -72,7 +72,7 @@ fn clusters(motions: &Motions<'_>, nodes: &Nodes) -> Vec<Vec<usize>> {
     let is_touched = |row: &usize| nodes.is_touched[nodes.of(*row)] && stiffness[*row] > 0.0;
     let of_body = |rows: &Vec<usize>| {
         let touched: Vec<usize> = rows.iter().copied().filter(is_touched).collect();
-        let with_stiffness = rows.iter().filter(|row| stiffness[**row] > 0.0).count();
+        let with_stiffness = rows.iter().filter(|row| nodes.is_placed(**row) && stiffness[**row] > 0.0).count();
         if touched.len() < with_stiffness { touched } else { Vec::new() }
     };
     let mut rows: Vec<usize> = motions.bodies.iter().flat_map(|body| of_body(&body.rows)).collect();

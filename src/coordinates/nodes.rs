@@ -24,6 +24,8 @@ const ROTATION: u8 = 1 << 3;
 /// What is known of each node.
 pub(super) struct Nodes {
     of_row: Vec<u32>,
+    /// Rows of nodes that have a place; amplitudes of modes have none.
+    is_placed: Vec<bool>,
     /// Nodes with a row on which a translation does not vanish.
     pub(super) is_touched: Vec<bool>,
     /// Rotations of which a node lacks a part: a displacement that they make, or the rotation itself where most nodes have it.
@@ -39,7 +41,9 @@ impl Nodes {
         let n_nodes = of_row.iter().max().map_or(0, |max| *max as usize + 1);
         let force = |row: usize| (0..FIRST_ROTATION).fold(0.0, |max: f64, j| max.max(motions.forces[(row, j)].abs()));
         let mut is_touched = vec![false; n_nodes];
-        for (row, node) in of_row.iter().enumerate() {
+        // Nothing holds amplitudes of modes: what K couples them with motions of the whole is rounding of zero, all terms of it.
+        let is_placed: Vec<bool> = motions.sites.iter().map(Option::is_some).collect();
+        for (row, node) in of_row.iter().enumerate().filter(|(row, _)| is_placed[*row]) {
             is_touched[*node as usize] |= force(row) > noticeable_force(motions, row);
         }
         let lacks = lacking(motions, &of_row, n_nodes);
@@ -50,12 +54,17 @@ impl Nodes {
                 near[of_row[row] as usize] |= coupled.fold(0, |bits, (col, _)| bits | lacks[of_row[col] as usize]);
             }
         }
-        Self { of_row, is_touched, lacks, near }
+        Self { of_row, is_placed, is_touched, lacks, near }
     }
 
     /// The node of a row.
     pub(super) fn of(&self, row: usize) -> usize {
         self.of_row[row] as usize
+    }
+
+    /// Whether a row belongs to a node that has a place.
+    pub(super) fn is_placed(&self, row: usize) -> bool {
+        self.is_placed[row]
     }
 
     /// How many there are.
@@ -70,7 +79,8 @@ impl Nodes {
 
     /// Whether all of a rotation about an axis is there around a row, and no support touches it.
     pub(super) fn is_witness(&self, row: usize, axis: usize) -> bool {
-        !self.is_touched[self.of(row)] && self.near[self.of(row)] & (DISPLACEMENT | ROTATION) << axis == 0
+        let is_whole = self.near[self.of(row)] & (DISPLACEMENT | ROTATION) << axis == 0;
+        self.is_placed[row] && !self.is_touched[self.of(row)] && is_whole
     }
 
     /// Whether no support touches a row or may hold what is coupled to it.

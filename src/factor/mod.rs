@@ -27,6 +27,7 @@ mod rows;
 mod solve;
 mod sturm_count;
 mod substitution;
+mod without_energy;
 
 pub use analysis::Analysis;
 pub use cholesky::Cholesky;
@@ -39,6 +40,7 @@ pub use sturm_count::{
     CONDENSED_GAP, InertiaCount, ShiftedFactor, condensed, count_below, count_below_freeing, count_negative,
     few_digits, rank,
 };
+pub use without_energy::without_energy;
 
 /// How the entries of a Cholesky factor are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

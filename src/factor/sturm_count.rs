@@ -184,6 +184,13 @@ pub fn rank<'a>(analysis: &Analysis, mass: impl Into<Leading<'a>>, rounding: Rou
 /// # Errors
 /// As [`count_below`].
 fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, rounding: Rounding) -> Result<usize> {
+    let margin = margin_of_roundings(stiffness, rounding);
+    let pencil = Pencil::new(stiffness, &margin);
+    Ok(Indefinite::new(analysis, pencil, -1.0, Keep::Pivots)?.signs()?.negative)
+}
+
+/// diag(r).
+pub(super) fn margin_of_roundings(stiffness: Leading<'_>, rounding: Rounding) -> SparseMatrix {
     let n = stiffness.rows();
     let diagonal = stiffness.diagonal();
     let row = |row: usize| {
@@ -191,9 +198,7 @@ fn count_negative_beyond(analysis: &Analysis, stiffness: Leading<'_>, rounding: 
         // An empty row has no stiffness to be rounded.
         if sum == 0.0 { 1.0 } else { PIVOT_GAP * diagonal[row].abs() + rounding.of_row(stiffness, &diagonal, row) }
     };
-    let margin = SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), (0..n).map(row).collect());
-    let pencil = Pencil::new(stiffness, &margin);
-    Ok(Indefinite::new(analysis, pencil, -1.0, Keep::Pivots)?.signs()?.negative)
+    SparseMatrix::new((n, n), (0..=n).collect(), (0..n as u32).collect(), (0..n).map(row).collect())
 }
 
 /// Why K is not a definite matrix, where its digits are few and rounding of them may be all that is wrong with it.

@@ -5,7 +5,9 @@
 //! ```
 //! K̂ was condensed from a stiffness that is larger by orders, and its entries carry the rounding of that one. So K̂ Q is not zero
 //! to the last digit of K̂, and the job states as many digits as K̂ Q shows: taken for exact, the zero eigenvalues of K̂
-//! would be negative or elastic.
+//! would be negative or elastic. A part that others hardly hold has rows that are soft next to theirs, and which have the rounding of
+//! its own stiffness: each row of a node is judged by its own terms, and all rows as a whole. Of modal amplitudes K̂ Q has nothing but
+//! rounding, all terms of it.
 
 use faer::{Mat, MatRef};
 
@@ -18,7 +20,8 @@ pub(crate) const FEWEST_DIGITS: i64 = 4;
 
 /// The digits that K̂ has by its rigid-body motion; nothing where it has none or all.
 ///
-/// Half a unit of the last of d digits, 0.5·10^(1−d), is at least [`MARGIN`] times the largest ‖K̂q‖ / ‖|K̂||q|‖.
+/// Half a unit of the last of d digits, 0.5·10^(1−d), is at least [`MARGIN`] times the largest ‖K̂q‖ / ‖|K̂||q|‖, and the largest
+/// ‖(K̂Q)ᵢ‖ / ‖(|K̂||Q|)ᵢ‖ of a row of a node.
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
@@ -42,7 +45,11 @@ pub(crate) fn digits([k, m, u]: [MatRef<'_, f64>; 3], places: &[Option<Place>]) 
     let forces = dense::product(k, q.as_ref());
     let terms = dense::product(dense::absolute(k).as_ref(), dense::absolute(q.as_ref()).as_ref());
     let norm = |a: &Mat<f64>, j: usize| dense::norm(dense::column(a.as_ref(), j));
-    let residuals = (0..q.ncols()).filter(|j| norm(&terms, *j) > 0.0).map(|j| norm(&forces, j) / norm(&terms, j));
+    let of_row = |a: &Mat<f64>, i: usize| dense::norm(&(0..a.ncols()).map(|j| a[(i, j)]).collect::<Vec<f64>>());
+    let of_motions = (0..q.ncols()).map(|j| (norm(&forces, j), norm(&terms, j)));
+    let rows = (0..places.len()).filter(|i| places[*i].is_some());
+    let of_rows = rows.map(|i| (of_row(&forces, i), of_row(&terms, i)));
+    let residuals = of_motions.chain(of_rows).filter(|(_, terms)| *terms > 0.0).map(|(force, terms)| force / terms);
     let digits = (1.0 - (2.0 * MARGIN * residuals.fold(0.0, f64::max)).log10()).floor();
     Ok((digits < ALL).then_some(digits.max(1.0) as i64))
 }

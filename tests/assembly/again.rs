@@ -31,7 +31,7 @@ fn lines(method: &str) -> Place {
 }
 
 /// Exports both as one model, whole.*, with more flags.
-fn export(place: &Place, flags: &str) -> Ended {
+pub(super) fn export(place: &Place, flags: &str) -> Ended {
     let [left, right, output] = ["left.supel", "right.supel", "whole"].map(|name| place.text(name));
     let start = ["export", &left, &right, "--to", "matrix-market", "--output", &output];
     supel(&start.into_iter().chain(flags.split_whitespace()).collect::<Vec<_>>())
@@ -41,7 +41,7 @@ const JOINED: &str = "--join left.middle=right.middle";
 
 /// The exported model reduced again by its own job, verified against it.
 #[track_caller]
-fn again(place: &Place, flags: &str) -> Superelement {
+pub(super) fn again(place: &Place, flags: &str) -> Superelement {
     let exported = export(place, flags).expect(ExitCode::Done);
     let job = place.text("whole.job.toml");
     assert!(place.path("whole.job.toml").exists(), "{}", exported.out);

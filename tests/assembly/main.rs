@@ -5,6 +5,7 @@ mod again;
 mod bounds;
 mod document;
 mod halves;
+mod joints;
 mod many_jobs;
 mod nastran;
 mod refused;
