@@ -37,8 +37,8 @@ pub(super) struct KnownMotions {
     /// The unit motions, where the file's are those.
     unit: Option<UnitMotions>,
     meaning: Meaning,
-    /// Whether inertia relief answers the motions that the reduction starts from, whatever these are.
-    is_relief_of_given: bool,
+    /// The motions that inertia relief answers.
+    relieved: Relieved,
     /// Whether they move one mass with one centre.
     is_of_a_body: bool,
     /// Whether the interface tells them apart.
@@ -58,6 +58,15 @@ pub(super) enum Sight {
     Whole,
     /// At rest it leaves some of them free.
     Part,
+}
+
+/// The motions that inertia relief answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Relieved {
+    /// Those that the reduction starts from.
+    Given,
+    /// Those of zero modes, as far as the file's are combinations of them.
+    Zero,
 }
 
 /// What the rigid-body modes of a file are known by.
@@ -92,6 +101,7 @@ impl KnownMotions {
         let rounding = (NOISE_FACTOR * f64::EPSILON * condition).min(LARGEST_EXCUSE);
         let turn = (NOISE_FACTOR * full.noise).min(LARGEST_TURN);
         let is_geometric = given.source == RigidSource::Geometric && given.count() == n_zero && given.n_mechanisms == 0;
+        let is_mended = given.is_classical && given.count() == n_zero && given.n_mechanisms == 0;
         let unit = is_geometric.then(|| {
             let modes = given.modes.as_ref();
             let (momenta, terms) = product_and_terms(&partition.mass, modes);
@@ -113,8 +123,10 @@ impl KnownMotions {
                 (false, true) => Meaning::Classical,
                 (false, false) => Meaning::Zero,
             },
-            is_relief_of_given: is_geometric
-                || given.is_classical && given.count() == n_zero && given.n_mechanisms == 0,
+            relieved: match is_geometric || is_mended {
+                true => Relieved::Given,
+                false => Relieved::Zero,
+            },
             is_of_a_body: given.is_classical && is_of_a_body(given.rigid_body_mass(&partition.mass).as_ref()),
             sight: Sight::Whole,
             rounding,
@@ -156,7 +168,7 @@ impl KnownMotions {
 
     /// Whether it answers the motions that the reduction starts from: those of the coordinates, or these as far as zero modes mend them.
     pub(super) fn is_relief_of_given(&self) -> bool {
-        self.is_relief_of_given
+        self.relieved == Relieved::Given
     }
 
     /// What rounding of K may move a displacement by, relatively.
