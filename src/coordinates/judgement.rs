@@ -1,9 +1,12 @@
 //! The decision about a doubt: supports, rounded coordinates, or coordinates that belong to another model.
 
+use std::ops::Range;
+
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
 use super::mended::{Mended, apart, mended};
 use super::motions::{AXES, FIVE_DIGITS, Motions, SIX_DIGITS};
+use super::nodes::FIRST_ROTATION;
 use super::zeros::{Zeros, counted, n_loose_rows, whole};
 use crate::dofs::Direction;
 use crate::error::{Error, ErrorClass, Result};
@@ -27,6 +30,8 @@ const EVEN: f64 = 100.0;
 /// other nodes or axes moves them by a hundredth or more.
 const THREE_DIGITS: f64 = 2e-3;
 
+/// Motions of a body.
+const ALL_MOTIONS: usize = 6;
 /// Motions of a body in a plane.
 const IN_A_PLANE: usize = 3;
 
@@ -119,11 +124,14 @@ impl Case<'_> {
                 || n_touched == 0
                 || zeros.n_rigid(motions, doubts)? > self.n_explained);
         if !is_unexplained {
-            // As many motions as those of all bodies and no other.
-            if zeros.count() == n_moving && n_moving > self.n_explained && may_be_askew {
-                self.refuse_apart(zeros)?;
+            if have_axes {
+                self.refuse_apart(zeros, &(0..ALL_MOTIONS))?;
             }
-            return Ok(CoordinateFit::Exact);
+            // What is off by no more than the decimals of the axes is mended as they are.
+            return match zeros.count() == n_moving && n_moving > self.n_explained && motions.has_rounded_axes() {
+                true => Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, (None, &|_| false))?.coordinates)),
+                false => Ok(CoordinateFit::Exact),
+            };
         }
         zeros.refuse_uncounted()?;
         let costly: Vec<usize> = (0..6).filter(|motion| self.costs_energy(worst, *motion)).collect();
@@ -139,11 +147,15 @@ impl Case<'_> {
         Err(error)
     }
 
-    /// Where nothing holds the bodies, all six motions of each are there, and rows that feel translations are along other axes than the map
-    /// says. Springs to the ground that are nothing next to the stiffness leave the motions as they are.
-    fn refuse_apart(&self, zeros: &Zeros) -> Result<()> {
+    /// Where nothing holds the bodies, as many motions cost nothing as they have and no other, and rows that feel translations are along other
+    /// axes than the map says, unless the job says that mechanisms are meant. Springs to the ground that are nothing next to the stiffness leave the motions as they are.
+    fn refuse_apart(&self, zeros: &Zeros, looked_at: &Range<usize>) -> Result<()> {
+        let n_moving: usize = self.free.iter().map(|free| free.n_moving).sum();
+        if zeros.count() != n_moving || n_moving == self.n_explained || self.mechanisms == Mechanisms::Accept {
+            return Ok(());
+        }
         zeros.refuse_uncounted()?;
-        let (energy, worst) = apart(self.motions, &self.free, zeros)?;
+        let (energy, worst) = apart(self.motions, (&self.free, zeros), looked_at)?;
         let expected = SIX_DIGITS.max(zeros.turn);
         if energy <= expected {
             return Ok(());
@@ -185,6 +197,10 @@ impl Case<'_> {
             // Of a body whose rows are nearly all touched the others say little, and the number of motions all.
             if self.are_mostly_touched() {
                 self.supports(zeros)?;
+            }
+            // No rounding of coordinates is felt by translations.
+            if worst.n_touched > 0 {
+                self.refuse_apart(zeros, &(0..FIRST_ROTATION))?;
             }
             let misfit = Misfit { rotation: AXES[rotations[0] % 3], energy: cost.energy, of: cost.of, at };
             let is_tied = |row: usize| self.is_tied(row);

@@ -1,5 +1,7 @@
 //! Rounded coordinates, or axes of nodes: the six motions of every row with the motions without energy replaced by those that K has.
 
+use std::ops::Range;
+
 use faer::{Mat, MatRef};
 
 use super::free::Free;
@@ -67,9 +69,13 @@ pub(super) fn mended(
     Ok(Mended { coordinates, out_of_place: worst.0, worst: worst.1 })
 }
 
-/// How far the zero modes move the worst row otherwise than the six motions do that they are nearest to, in units of the size of its body, and
+/// How far the zero modes move the worst row otherwise than some of the six motions do that they are nearest to, in units of the size of its body, and
 /// that row. A row that no zero mode moves is none.
-pub(super) fn apart(motions: &Motions<'_>, free: &[Free], zeros: &Zeros) -> Result<(f64, usize)> {
+pub(super) fn apart(
+    motions: &Motions<'_>,
+    (free, zeros): (&[Free], &Zeros),
+    looked_at: &Range<usize>,
+) -> Result<(f64, usize)> {
     let mut worst = (0.0, 0);
     for (body, free) in motions.bodies.iter().zip(free) {
         let nearest = Nearest::of(motions, body, free, zeros)?;
@@ -77,7 +83,7 @@ pub(super) fn apart(motions: &Motions<'_>, free: &[Free], zeros: &Zeros) -> Resu
         let apart = dense::product(nearest.gap(&nearest.on(&|_| true)?).as_ref(), back.as_ref());
         for place in &nearest.displacements {
             let row = body.rows[*place];
-            let largest = |of: &dyn Fn(usize) -> f64| (0..apart.ncols()).map(|j| of(j).abs()).fold(0.0, f64::max);
+            let largest = |of: &dyn Fn(usize) -> f64| looked_at.clone().map(|j| of(j).abs()).fold(0.0, f64::max);
             let off = largest(&|j| apart[(*place, j)]);
             // What a support holds stays behind.
             let is_at_rest = largest(&|j| motions.centred[(row, j)] + apart[(*place, j)]) <= SIX_DIGITS;

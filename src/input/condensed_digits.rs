@@ -49,7 +49,11 @@ pub(crate) fn digits([k, m, u]: [MatRef<'_, f64>; 3], places: &[Option<Place>]) 
     let of_motions = (0..q.ncols()).map(|j| (norm(&forces, j), norm(&terms, j)));
     let rows = (0..places.len()).filter(|i| places[*i].is_some());
     let of_rows = rows.map(|i| (of_row(&forces, i), of_row(&terms, i)));
-    let residuals = of_motions.chain(of_rows).filter(|(_, terms)| *terms > 0.0).map(|(force, terms)| force / terms);
-    let digits = (1.0 - (2.0 * MARGIN * residuals.fold(0.0, f64::max)).log10()).floor();
+    let ratio = |(force, terms): (f64, f64)| if terms > 0.0 { force / terms } else { 0.0 };
+    let digits = |residual: f64| (1.0 - (2.0 * MARGIN * residual).log10()).floor();
+    // A row with fewer digits than a model needs is that of a motion that costs nothing: all of it is rounding of the stiffness around.
+    let has_digits = |residual: &f64| digits(*residual) >= FEWEST_DIGITS as f64;
+    let residuals = of_motions.map(ratio).chain(of_rows.map(ratio).filter(has_digits));
+    let digits = digits(residuals.fold(0.0, f64::max));
     Ok((digits < ALL).then_some(digits.max(1.0) as i64))
 }
