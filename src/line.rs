@@ -138,18 +138,12 @@ pub(crate) fn known(
 }
 
 /// An interface that lacks a motion, with what the scene leaves unloaded of it.
-fn naming_unloaded(error: Error, plan: &Plan) -> Error {
-    match error {
-        Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, uncertain, .. } => {
-            let scene = plan.job().scene.as_ref();
-            let parts = scene.iter().flat_map(|scene| scene.unloaded.iter().map(|part| format!("`{}`", part.0)));
-            let others =
-                scene.and_then(|scene| scene.connected.as_ref()).map(|_| "all that is not `connected`".to_owned());
-            let unloaded = parts.chain(others).collect();
-            Error::InterfaceRank { rank, n_rigid, motion, has_coordinates, uncertain, unloaded }
-        }
-        error => error,
+fn naming_unloaded(mut error: Error, plan: &Plan) -> Error {
+    if let (Error::InterfaceRank { unloaded, .. }, Some(scene)) = (&mut error, &plan.job().scene) {
+        unloaded.extend(scene.unloaded.iter().map(|part| format!("`{}`", part.0)));
+        unloaded.extend(scene.connected.iter().map(|_| "all that is not `connected`".to_owned()));
     }
+    error
 }
 
 /// What the stages up to the projection have made.

@@ -129,11 +129,8 @@ impl<'a> Reference<'a> {
                 (asked, columns)
             }
             asked => {
-                let (all, source) = match (motions.has_unit(), motions.is_relief_of_given()) {
-                    (true, _) => (given.modes.as_ref(), RigidSource::Geometric),
-                    (false, true) => (given.modes.as_ref(), RigidSource::Algebraic),
-                    (false, false) => (zero.orthonormal.as_ref(), RigidSource::Algebraic),
-                };
+                let all = if motions.is_relief_of_given() { &given.modes } else { &zero.orthonormal }.as_ref();
+                let source = if motions.has_unit() { RigidSource::Geometric } else { RigidSource::Algebraic };
                 let mass = plan.mass();
                 let whole = Motions { carried: &given, relieved: all, numbers: &[], source, mass };
                 match (asked, answers) {

@@ -97,7 +97,7 @@ impl AmongKnown {
     }
 
     /// What a shape has besides the modes of its cluster, in the norm of M.
-    pub(super) fn beside(&self, claim: usize, cluster: &Range<usize>) -> f64 {
+    pub(super) fn outside(&self, claim: usize, cluster: &Range<usize>) -> f64 {
         let within: f64 = cluster.clone().map(|mode| self.along[(mode, claim)].powi(2)).sum();
         (1.0 - within).max(0.0).sqrt()
     }

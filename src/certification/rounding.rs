@@ -36,10 +36,10 @@ pub(super) fn is_rounded_mode(
     match (standing, cluster, known) {
         (Standing::Rigid, ..) => (1.0 - measured.rigid_share(claim)).max(0.0).sqrt() <= rounded,
         (Standing::Kept, Some(cluster), Some(known)) => {
-            let beside = known.of_others(claim, cluster).hypot(measured.rigid_share(claim).max(0.0).sqrt());
-            beside <= rounded && measured.lacking[claim] <= of_rounding(claims, measured, claim).max(rounded)
+            let of_others = known.of_others(claim, cluster).hypot(measured.rigid_share(claim).max(0.0).sqrt());
+            of_others <= rounded && measured.lacking[claim] <= of_rounding(claims, measured, claim).max(rounded)
         }
-        (Standing::None, Some(cluster), Some(known)) => known.beside(claim, cluster) <= rounded,
+        (Standing::None, Some(cluster), Some(known)) => known.outside(claim, cluster) <= rounded,
         _ => false,
     }
 }

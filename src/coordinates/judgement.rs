@@ -108,8 +108,7 @@ impl Case<'_> {
         let cost = of_first_elastic(cost(&worst), zeros.first_elastic(0));
         let n_touched: usize = doubts.iter().map(|doubt| doubt.n_touched).sum();
         // As many as all bodies have motions: soft supports leave them some at most, rows along axes that are off all.
-        let n_moving: usize = self.free.iter().map(|free| free.n_moving).sum();
-        let are_all = zeros.count() >= n_moving;
+        let are_all = zeros.count() >= self.n_moving();
         // Where supports touch few rows, parts that move against each other on all others are a held chain of links, which nothing but the job
         // tells from axes that are off beyond these rows. Rows along a line have no axes to be off.
         let have_axes = doubts.iter().all(|doubt| self.free[doubt.body].n_moving >= IN_A_PLANE);
@@ -128,7 +127,10 @@ impl Case<'_> {
                 self.refuse_apart(zeros, &(0..ALL_MOTIONS))?;
             }
             // What is off by no more than the decimals of the axes is mended as they are.
-            return match zeros.count() == n_moving && n_moving > self.n_explained && motions.has_rounded_axes() {
+            return match zeros.count() == self.n_moving()
+                && zeros.count() > self.n_explained
+                && motions.has_rounded_axes()
+            {
                 true => Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, (None, &|_| false))?.coordinates)),
                 false => Ok(CoordinateFit::Exact),
             };
@@ -147,10 +149,16 @@ impl Case<'_> {
         Err(error)
     }
 
+    /// Motions of all bodies that move a dof.
+    fn n_moving(&self) -> usize {
+        self.free.iter().map(|free| free.n_moving).sum()
+    }
+
     /// Where nothing holds the bodies, as many motions cost nothing as they have and no other, and rows that feel translations are along other
-    /// axes than the map says, unless the job says that mechanisms are meant. Springs to the ground that are nothing next to the stiffness leave the motions as they are.
+    /// axes than the map says, unless the job says that mechanisms are meant. Springs to the ground that are nothing next to the stiffness
+    /// leave the motions as they are.
     fn refuse_apart(&self, zeros: &Zeros, looked_at: &Range<usize>) -> Result<()> {
-        let n_moving: usize = self.free.iter().map(|free| free.n_moving).sum();
+        let n_moving = self.n_moving();
         if zeros.count() != n_moving || n_moving == self.n_explained || self.mechanisms == Mechanisms::Accept {
             return Ok(());
         }

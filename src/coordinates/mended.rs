@@ -45,18 +45,15 @@ pub(super) fn mended(
         let nearest = Nearest::of(motions, body, free, zeros)?;
         let back = right_inverse(nearest.combined.as_ref().subrows(first, 6 - first))?;
         let change = |w: &Mat<f64>| dense::product(nearest.gap(w).as_ref(), back.as_ref());
-        let pinned = nearest.on(interface)?;
-        let pinned = change(&pinned);
-        let laid = change(&nearest.on(&|_| true)?);
+        let pinned = change(&nearest.on(interface)?);
         for (i, row) in body.rows.iter().enumerate() {
             (first..6).for_each(|j| mended[(*row, j)] += pinned[(i, j - first)]);
-            let off = if is_displacement(motions, *row) {
-                (0..6 - first).map(|j| laid[(i, j)].abs()).fold(0.0, f64::max)
-            } else {
-                0.0
-            };
+        }
+        let laid = change(&nearest.on(&|_| true)?);
+        for place in &nearest.displacements {
+            let off = (0..6 - first).map(|j| laid[(*place, j)].abs()).fold(0.0, f64::max);
             if dense::worse(off, worst.0) {
-                worst = (off, *row);
+                worst = (off, body.rows[*place]);
             }
         }
         for row in &body.rows {
@@ -69,8 +66,8 @@ pub(super) fn mended(
     Ok(Mended { coordinates, out_of_place: worst.0, worst: worst.1 })
 }
 
-/// How far the zero modes move the worst row otherwise than some of the six motions do that they are nearest to, in units of the size of its body, and
-/// that row. A row that no zero mode moves is none.
+/// How far the zero modes move the worst row otherwise than some of the six motions do that they are nearest to, in units of the size of its
+/// body, and that row. A row that no zero mode moves is none.
 pub(super) fn apart(
     motions: &Motions<'_>,
     (free, zeros): (&[Free], &Zeros),

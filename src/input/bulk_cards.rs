@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::blocks::LastLine;
 use super::bulk_lines::{BulkLines, Place};
+use super::bulk_start::without_comment;
 use crate::error::{Error, Result};
 
 /// How wide the fields of a line are.
@@ -165,10 +166,6 @@ impl Due {
         let found = format!("no continuation {:?} behind it", String::from_utf8_lossy(&self.name));
         out_of_order(&self.place, found, "the continuation that it names, which stands elsewhere".to_owned())
     }
-}
-
-fn without_comment(line: &[u8]) -> &[u8] {
-    line.split(|byte| *byte == b'$').next().unwrap_or(line)
 }
 
 /// The names of all continuations of a deck, without their marks and in capital letters.

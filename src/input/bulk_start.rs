@@ -27,10 +27,15 @@ pub(super) fn is_bulk(start: &FileStart<'_>) -> bool {
     is_divided || begins(&line.to_ascii_uppercase())
 }
 
+/// A line of a deck without the comment behind its fields.
+pub(super) fn without_comment(line: &[u8]) -> &[u8] {
+    line.split(|byte| *byte == b'$').next().unwrap_or(line)
+}
+
 /// Whether a line stands between sections of a deck.
 fn divides(line: &[u8]) -> bool {
     const BEGIN: [&[u8]; 3] = [b"BEGIN BULK", b"BEGIN SUPER", b"EXTRN"];
-    let line = line.split(|byte| *byte == b'$').next().unwrap_or(line).trim_ascii_end();
+    let line = without_comment(line).trim_ascii_end();
     line == b"CEND" || BEGIN.iter().any(|word| line.starts_with(word))
 }
 

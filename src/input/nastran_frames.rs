@@ -16,6 +16,7 @@ use super::fortran::{real, whole};
 use super::in_line::Off;
 use super::local_system::{LocalSystem, SystemKind};
 use super::node_frames::NodeFrames;
+use crate::dofs::Nodes;
 use crate::error::{Error, Result};
 
 /// Fields of GRID and GRDSET behind their names.
@@ -32,14 +33,17 @@ const MAX_CHAIN: usize = 64;
 /// # Errors
 /// Entries that are not what they should be, systems that are not there or refer to themselves, a file that cannot be read.
 pub(super) fn grid_frames(path: &Path) -> Result<Option<NodeFrames>> {
-    let grids = grids(path)?;
+    frames_of(path, &grids(path)?)
+}
+
+fn frames_of(path: &Path, grids: &BTreeMap<i64, Grid>) -> Result<Option<NodeFrames>> {
     let turned: Vec<(i64, &Grid)> =
         grids.iter().filter(|(_, grid)| !matches!(grid.cd, 0 | FLUID)).map(|(label, grid)| (*label, grid)).collect();
     let along_model = grids.iter().filter(|(_, grid)| grid.cd == 0).map(|(label, _)| *label).collect();
     let first = turned.iter().map(|(_, grid)| *grid).min_by_key(|grid| grid.place.line);
     let Some(first) = first.or_else(|| grids.values().next()) else { return Ok(None) };
     let place = (first.place.path.to_path_buf(), first.place.line);
-    let systems = Systems { defined: systems(path)?, grids: &grids, open: RefCell::default() };
+    let systems = Systems { defined: systems(path)?, grids, open: RefCell::default() };
     let mut axes = BTreeMap::new();
     for (label, grid) in turned {
         let system = systems.system(grid.cd, &grid.place)?;
@@ -48,16 +52,19 @@ pub(super) fn grid_frames(path: &Path) -> Result<Option<NodeFrames>> {
     Ok(Some(NodeFrames { axes, along_model, rounded: BTreeMap::new(), place }))
 }
 
-/// Where all grid points of a deck are in the basic system, by their labels.
+/// Where all grid points of a deck are in the basic system, by their labels, and their axes as [`grid_frames`] has them.
 ///
 /// # Errors
 /// Those of [`grid_frames`]; a position that cannot be read.
-pub(super) fn grid_points(path: &Path) -> Result<BTreeMap<i64, [f64; 3]>> {
+pub(super) fn grid_points(path: &Path) -> Result<(Nodes, Option<NodeFrames>)> {
     let grids = grids(path)?;
     let is_basic = grids.values().all(|grid| grid.cp == 0);
     let defined = if is_basic { BTreeMap::new() } else { systems(path)? };
     let systems = Systems { defined, grids: &grids, open: RefCell::default() };
-    grids.iter().map(|(label, grid)| Ok((*label, systems.located(*label, &grid.place)?.point))).collect()
+    let located = |(label, grid): (&i64, &Grid)| Ok((*label, systems.located(*label, &grid.place)?.point));
+    let points = grids.iter().map(located).collect::<Result<Vec<_>>>()?;
+    let (labels, coordinates) = points.into_iter().unzip();
+    Ok((Nodes { labels, coordinates, ..Nodes::default() }, frames_of(path, &grids)?))
 }
 
 /// A grid point.

@@ -8,8 +8,7 @@ use super::bulk_lines::included_files;
 use super::bulk_start::is_bulk;
 use super::file_start::FileStart;
 use super::format::{Format, NodeFormat, ReadNodes, Sureness};
-use super::nastran_frames::{grid_frames, grid_points};
-use crate::dofs::Nodes;
+use super::nastran_frames::grid_points;
 use crate::error::{Error, Result};
 
 /// Bytes of a grid point: its entry, its label and its position.
@@ -26,14 +25,12 @@ impl Format for NastranNodes {
 
 impl NodeFormat for NastranNodes {
     fn read(&self, path: &Path, allowance: &Allowance) -> Result<ReadNodes> {
-        let points = grid_points(path)?;
-        if points.is_empty() {
+        let (nodes, along_frames) = grid_points(path)?;
+        if nodes.labels.is_empty() {
             return Err(Error::NoData { path: path.to_owned(), expected: "GRID entries of bulk data" });
         }
-        allowance.claim(path).add(NODE * points.len() as u64)?;
-        let (labels, coordinates) = points.into_iter().unzip();
-        let nodes = Nodes { labels, coordinates, ..Nodes::default() };
-        Ok(ReadNodes { along_frames: grid_frames(path)?, ..ReadNodes::along_the_axes(nodes, None) })
+        allowance.claim(path).add(NODE * nodes.labels.len() as u64)?;
+        Ok(ReadNodes { along_frames, ..ReadNodes::along_the_axes(nodes, None) })
     }
 
     fn referenced_files(&self, path: &Path) -> Vec<PathBuf> {

@@ -109,8 +109,7 @@ impl Partition {
 
     /// Why the entries of K are known to less than double precision; none where they are not.
     pub fn uncertain(&self) -> Option<Uncertain> {
-        let cause = if self.precision.stiffness.differing.is_some() { Uncertain::Triangles } else { Uncertain::Digits };
-        self.has_few_digits().then_some(cause)
+        self.has_few_digits().then(|| self.precision.stiffness.cause())
     }
 
     fn panel_noise(&self, (roundings, rounding, unit): (&Roundings, Rounding, f64), x: MatRef<'_, f64>) -> Vec<f64> {

@@ -96,8 +96,12 @@ impl Rounding {
 
     /// The error of what the entries do not tell.
     pub fn too_uncertain(self, what: String) -> Error {
-        let cause = if self.differing.is_some() { Uncertain::Triangles } else { Uncertain::Digits };
-        Error::DigitsTooFew { cause, what, known: self.in_words() }
+        Error::DigitsTooFew { cause: self.cause(), what, known: self.in_words() }
+    }
+
+    /// Why entries are known no better.
+    pub fn cause(self) -> Uncertain {
+        if self.differing.is_some() { Uncertain::Triangles } else { Uncertain::Digits }
     }
 
     /// Whether the entries were rounded to fewer digits than double precision has.

@@ -65,7 +65,7 @@ pub(super) enum Sight {
 enum Relieved {
     /// Those that the reduction starts from.
     Given,
-    /// Those of zero modes, as far as the file's are combinations of them.
+    /// Zero modes, of which those of the file are combinations.
     Zero,
 }
 
@@ -100,8 +100,8 @@ impl KnownMotions {
         let condition = ratios.fold(1.0, f64::max) / full.first;
         let rounding = (NOISE_FACTOR * f64::EPSILON * condition).min(LARGEST_EXCUSE);
         let turn = (NOISE_FACTOR * full.noise).min(LARGEST_TURN);
-        let is_geometric = given.source == RigidSource::Geometric && given.count() == n_zero && given.n_mechanisms == 0;
-        let is_mended = given.is_classical && given.count() == n_zero && given.n_mechanisms == 0;
+        let are_all = given.count() == n_zero && given.n_mechanisms == 0;
+        let is_geometric = are_all && given.source == RigidSource::Geometric;
         let unit = is_geometric.then(|| {
             let modes = given.modes.as_ref();
             let (momenta, terms) = product_and_terms(&partition.mass, modes);
@@ -123,7 +123,7 @@ impl KnownMotions {
                 (false, true) => Meaning::Classical,
                 (false, false) => Meaning::Zero,
             },
-            relieved: match is_geometric || is_mended {
+            relieved: match is_geometric || are_all && given.is_classical {
                 true => Relieved::Given,
                 false => Relieved::Zero,
             },

@@ -84,12 +84,9 @@ pub(super) fn worst_dip([full, reduced]: [[&Response; 2]; 2]) -> Dip {
     for j in 0..n {
         let farthest = full[0].farthest(j).max(full[1].farthest(j));
         for i in (0..=j).chain(n..n_rows) {
-            let chords = [full, reduced].map(|ends| ends.map(|response| response.get(i, j)));
-            for place in chords.into_iter().filter_map(nearest_to_zero) {
-                let on = |[a, b]: [c64; 2]| a + (b - a) * place;
-                let most = || (roots[0][i] * roots[0][j]).max(roots[1][i] * roots[1][j]);
-                let floor = UNCOUPLED * if i < n { most() } else { farthest };
-                let excess = excess(on(chords[0]), on(chords[1]), floor);
+            let most = || (roots[0][i] * roots[0][j]).max(roots[1][i] * roots[1][j]);
+            let floor = UNCOUPLED * if i < n { most() } else { farthest };
+            for (place, excess) in dips_of_pair([full, reduced], (i, j), floor) {
                 if dense::worse(excess, worst) {
                     (worst, at) = (excess, place);
                 }
@@ -99,23 +96,22 @@ pub(super) fn worst_dip([full, reduced]: [[&Response; 2]; 2]) -> Dip {
     Dip { place: at, decibel: decibel(worst) }
 }
 
+/// Where the chords of a pair, full and reduced, pass by zero, and by how much the responses differ there.
+fn dips_of_pair(ends: [[&Response; 2]; 2], (i, j): (usize, usize), floor: f64) -> impl Iterator<Item = (f64, f64)> {
+    let chords = ends.map(|ends| ends.map(|response| response.get(i, j)));
+    chords.into_iter().filter_map(nearest_to_zero).map(move |place| {
+        let on = |[a, b]: [c64; 2]| a + (b - a) * place;
+        (place, excess(on(chords[0]), on(chords[1]), floor))
+    })
+}
+
 /// By how much the responses of each output differ at most where chords of theirs pass by zero between two frequencies, in the order of rows.
 pub(super) fn output_dips([full, reduced]: [[&Response; 2]; 2]) -> Vec<f64> {
     let (n, n_rows) = (full[0].n(), full[0].n_rows());
+    let floor = |j: usize| UNCOUPLED * full[0].farthest(j).max(full[1].farthest(j));
     let of_output = |i: usize| {
-        let mut worst = 0.0;
-        for j in 0..n {
-            let floor = UNCOUPLED * full[0].farthest(j).max(full[1].farthest(j));
-            let chords = [full, reduced].map(|ends| ends.map(|response| response.get(i, j)));
-            for place in chords.into_iter().filter_map(nearest_to_zero) {
-                let on = |[a, b]: [c64; 2]| a + (b - a) * place;
-                let excess = excess(on(chords[0]), on(chords[1]), floor);
-                if dense::worse(excess, worst) {
-                    worst = excess;
-                }
-            }
-        }
-        worst
+        let dips = (0..n).flat_map(|j| dips_of_pair([full, reduced], (i, j), floor(j)));
+        dips.fold(0.0, |worst, (_, excess)| if dense::worse(excess, worst) { excess } else { worst })
     };
     (n..n_rows).map(of_output).collect()
 }

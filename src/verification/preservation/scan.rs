@@ -64,10 +64,8 @@ pub(super) struct Scanned {
 impl Scan<'_> {
     /// The highest peaks of the error between two frequencies.
     pub(super) fn peaks(&self, [low, high]: [f64; 2]) -> Scanned {
-        let decades = (high / low).ln();
-        let n_steps = self.n_steps(decades);
-        let step = decades / n_steps as f64;
-        let at = |i: usize| if i == n_steps { high } else { low * (step * i as f64).exp() };
+        let (n_steps, step) = self.steps([low, high]);
+        let at = |i: usize| at_step([low, high], (n_steps, step), i);
         let (errors, dips) = self.walked(n_steps, &at);
         let error = |i: Option<usize>| i.and_then(|i| errors.get(i)).copied().unwrap_or(f64::NEG_INFINITY);
         let is_peak = |i: &usize| error(Some(*i)) >= error(i.checked_sub(1)) && error(Some(*i)) > error(Some(i + 1));
@@ -87,10 +85,9 @@ impl Scan<'_> {
     /// By how much each output differs at most, at samples, at points between the first and the last, and where chords between these pass by
     /// zero.
     pub(super) fn of_outputs(&self, samples_hz: &[f64]) -> Vec<f64> {
-        let (low, high) = (samples_hz[0], samples_hz[samples_hz.len() - 1]);
-        let decades = (high / low).ln();
-        let n_steps = self.n_steps(decades);
-        let at = |i: usize| if i == n_steps { high } else { low * (decades / n_steps as f64 * i as f64).exp() };
+        let band = [samples_hz[0], samples_hz[samples_hz.len() - 1]];
+        let (n_steps, step) = self.steps(band);
+        let at = |i: usize| at_step(band, (n_steps, step), i);
         let starts: Vec<usize> = (0..n_steps).step_by(RUN).collect();
         let run = |start: &usize| {
             let mut before = self.point(at(*start));
@@ -156,6 +153,13 @@ impl Scan<'_> {
         if dense::worse(top.1, error(at)) { top } else { passed[at] }
     }
 
+    /// How many steps a scan between two frequencies takes, and the logarithm of each.
+    fn steps(&self, [low, high]: [f64; 2]) -> (usize, f64) {
+        let decades = (high / low).ln();
+        let n_steps = self.n_steps(decades);
+        (n_steps, decades / n_steps as f64)
+    }
+
     fn n_steps(&self, decades: f64) -> usize {
         let n_b = self.evidence.partition.n_interface() as f64;
         // Real and imaginary part of n_B × r times r × n_B, for both models, and of as many rows more as there are outputs.
@@ -180,6 +184,11 @@ impl Scan<'_> {
     fn top(&self, [low, high]: [f64; 2]) -> (f64, f64) {
         top([low, high], &|hz| self.decibel(hz))
     }
+}
+
+/// The frequency after so many steps from the first to the last.
+fn at_step([low, high]: [f64; 2], (n_steps, step): (usize, f64), i: usize) -> f64 {
+    if i == n_steps { high } else { low * (step * i as f64).exp() }
 }
 
 /// Where in an interval a value is largest, and the value, by golden section.
