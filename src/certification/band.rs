@@ -1,9 +1,10 @@
 //! All modes of a band: those that a result has, and those that counts find missing and the own eigensolver finds.
 
 use super::claims::Claims;
-use super::independence::{RIGID, Standing};
+use super::independence::{RECOGNISED, RIGID, Standing};
 use super::measured::Measured;
-use crate::eigen::{ElasticCount, Interval, Modes};
+use super::turned;
+use crate::eigen::{ElasticCount, Interval, ModalProblem, Modes, ShiftInvert};
 use crate::error::{Error, Result};
 use crate::job::Certify;
 use crate::modes::{BoundaryProblem, Certificate, ModeSource, Search, certified};
@@ -23,6 +24,11 @@ pub(super) const CLUSTER: f64 = 1e-5;
 /// How far above the end of a band its count is taken, relative to λ: off the highest mode by more than rounding, and mostly below the
 /// next one.
 const BEYOND: f64 = 1.0 / 256.0;
+/// Share of the end of a band from which on shapes are near it.
+const NEAR_THE_END: f64 = 0.9;
+/// How many times as far as the forces of the shapes at its end that count is taken at least: their angle to what lies above is then
+/// below a hundredth, and the bar of their frequencies that times their δ.
+const FORCES_BEYOND: f64 = 25.0;
 /// Steps by which a shift that lies on an eigenvalue is moved up, relative to it.
 const STEPS: [f64; 4] = [0.0, 1e-4, 1e-3, 1e-2];
 /// Steps in λ by which a shift leaves the cluster of zeros that rigid-body modes are: a quarter of a frequency each.
@@ -44,6 +50,8 @@ pub(super) struct Completed {
     pub(super) certificate: Option<Certificate>,
     /// λ at the ends of the band, in scaled units.
     pub(super) ends: [f64; 2],
+    /// λ between which no others than `modes` are, rigid-body modes apart, where they were counted; the lower one infinite from zero on.
+    pub(super) counted: Option<[f64; 2]>,
     /// λ up to which all modes of the band are known: its upper end, unless too many are missing below that.
     pub(super) known_to: f64,
     /// Whether the band is the one that was asked for.
@@ -82,6 +90,17 @@ impl Completed {
         Ok(Self { first_elastic, ..self })
     }
 
+    /// With modes of the space that those of the result and the ones found beside them span: a search beside a combination of two finds
+    /// the other combination.
+    ///
+    /// # Errors
+    /// A dense eigenproblem that does not converge.
+    pub(super) fn turned(self, problem: ModalProblem<'_>, operator: &dyn ShiftInvert) -> Result<Self> {
+        let Modes { shapes, searched_to, next, counts, work, .. } = self.modes;
+        let modes = Modes { searched_to, next, counts, work, ..turned::modes_of(problem, operator, shapes)? };
+        Ok(Self { modes, ..self })
+    }
+
     /// The same modes in a band that ends with the highest mode that a pair is, where no end was asked for: what a result states above it
     /// is no reason to look for modes there.
     pub(super) fn ending_with(self, highest: Option<f64>) -> Self {
@@ -116,13 +135,23 @@ pub(super) fn completed(
         _ => None,
     };
     let (top, end) = match asked {
-        Some([_, to]) => (to, end_of(problem, to)?),
+        Some([_, to]) => (to, end_of(problem, to, (claims, measured))?),
         None => default_end(problem, &known, (claims, measured))?,
     };
     let ends = [asked.map_or(0.0, |[from, _]| from), top];
     let incomplete = |modes: Modes, n_not_sought: usize| {
         let is_asked = asked.is_some();
-        Completed { modes, certificate: None, ends, known_to: 0.0, is_asked, n_not_sought, first_elastic: None }
+        let known_to = 0.0;
+        Completed {
+            modes,
+            certificate: None,
+            ends,
+            counted: None,
+            known_to,
+            is_asked,
+            n_not_sought,
+            first_elastic: None,
+        }
     };
     let Some(end) = end else { return Ok(incomplete(known, 0)) };
     let lowest = begin.map_or(f64::NEG_INFINITY, |begin| begin.inertia.sigma);
@@ -137,8 +166,9 @@ pub(super) fn completed(
     let given = Modes { counts, searched_to: Some(known_to), ..inside };
     let source = OfResult { search, modes: &given, begin };
     let (modes, certificate) = certified(&source, problem, given.clone(), Some(end), Certify::Count)?;
-    let is_asked = asked.is_some();
-    Ok(Completed { modes, certificate, ends, known_to, is_asked, n_not_sought: n_beyond, first_elastic: None })
+    let counted = Some([lowest, certificate.as_ref().map_or(end.inertia.sigma, |certificate| certificate.count.sigma)]);
+    let (is_asked, n_not_sought) = (asked.is_some(), n_beyond);
+    Ok(Completed { modes, certificate, ends, counted, known_to, is_asked, n_not_sought, first_elastic: None })
 }
 
 /// The modes of a result as a source that has no others: what is missing the own search finds.
@@ -200,8 +230,20 @@ fn above_the_zeros(problem: &BoundaryProblem<'_>, sigma: f64) -> Result<Option<E
     Ok(None)
 }
 
-fn end_of(problem: &BoundaryProblem<'_>, top: f64) -> Result<Option<ElasticCount>> {
-    if top > 0.0 { count_near(problem, top * (1.0 + BEYOND)).map(Some) } else { Ok(None) }
+/// The count above the end of a band: by so much that the distance from there to the shapes at its end is far more than their forces
+/// leave open. What is nearer than that to a poor shape may be a part of it.
+fn end_of(
+    problem: &BoundaryProblem<'_>,
+    top: f64,
+    (claims, measured): (&Claims, &Measured),
+) -> Result<Option<ElasticCount>> {
+    if top <= 0.0 {
+        return Ok(None);
+    }
+    let is_near = |claim: &usize| claims.has_mass[*claim] && measured.lambda[*claim] >= NEAR_THE_END * top;
+    let of_shapes = (0..claims.count()).filter(is_near).map(|claim| measured.lacking[claim]);
+    let poorest = of_shapes.filter(|lacking| *lacking <= RECOGNISED).fold(0.0, f64::max);
+    count_near(problem, top * (1.0 + BEYOND.max(FORCES_BEYOND * poorest))).map(Some)
 }
 
 /// The end of the band that a result has by itself: its highest frequency, or the highest of a shape that is a mode where there are too
@@ -218,13 +260,13 @@ fn default_end(
     let stated = stated.filter(|(claim, lambda)| is_elastic(*claim) && lambda.is_finite());
     let of_all = stated.map(|(_, lambda)| lambda).fold(of_known, f64::max);
     if of_all > of_known * (1.0 + BEYOND) {
-        let end = end_of(problem, of_all)?;
+        let end = end_of(problem, of_all, (claims, measured))?;
         let n_lacking = end.map_or(0, |end| end.n_elastic.saturating_sub(known.count()));
         if n_lacking <= MOST_MISSING + claims.count() {
             return Ok((of_all, end));
         }
     }
-    Ok((of_known, end_of(problem, of_known)?))
+    Ok((of_known, end_of(problem, of_known, (claims, measured))?))
 }
 
 /// Counts inside a band, so that what is missing is in intervals of few modes.

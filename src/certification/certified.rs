@@ -76,11 +76,16 @@ pub fn certified_pairs(
     let (measured, independent) = problem.with_definite_operator(|operator| {
         let measured = Measured::of(problem.modal(), operator, claims);
         unit::refuse_other(partition, claims, &measured)?;
-        let independent = independent(problem.modal(), operator, (claims, &measured));
+        let independent = independent(problem.modal(), operator, (claims, &measured))?;
         Ok((measured, independent))
     })?;
     let standing = independent.standing;
+    let n_of_result = independent.modes.count();
     let completed = completed((&search, partition), independent.modes, (claims, &measured), band)?;
+    let completed = match completed.modes.count() > n_of_result {
+        true => problem.with_definite_operator(|operator| completed.turned(problem.modal(), operator))?,
+        false => completed,
+    };
     let completed = completed.with_first_elastic((claims, &standing), || first_elastic(component, job))?;
     let known = AmongKnown::of(problem.modal(), (claims, &measured), &completed)?;
     let judged = judged_pairs(&problem, (claims, &measured), &standing, (&completed, known.as_ref()));

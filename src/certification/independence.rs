@@ -9,8 +9,10 @@ use faer::{Mat, MatRef};
 
 use super::claims::Claims;
 use super::measured::{Measured, lacking};
+use super::turned;
 use crate::dense;
-use crate::eigen::{EigenWork, Eigenpairs, ModalProblem, Modes, Problem, ShiftInvert, judged, rayleigh_quotients};
+use crate::eigen::{ModalProblem, Modes, ShiftInvert, rayleigh_quotients};
+use crate::error::Result;
 use crate::sparse::product;
 
 /// δ up to which a shape is taken for an eigenvector: its frequency is then known to a hundredth by the bound that holds for any vector,
@@ -46,11 +48,14 @@ pub(super) struct Independent {
 }
 
 /// Tells eigenvectors from what is none, and independent ones from repetitions.
+///
+/// # Errors
+/// A dense eigenproblem that does not converge.
 pub(super) fn independent(
     problem: ModalProblem<'_>,
     operator: &dyn ShiftInvert,
     (claims, measured): (&Claims, &Measured),
-) -> Independent {
+) -> Result<Independent> {
     let k = claims.count();
     let mut standing = vec![Standing::None; k];
     let is_rigid = |j: usize| measured.rigid_share(j) > RIGID;
@@ -80,8 +85,8 @@ pub(super) fn independent(
         }
     }
     in_order_of_the_file(&mut standing);
-    let modes = factor.modes(problem, operator, elastic.as_ref());
-    Independent { standing, modes }
+    let modes = turned::modes_of(problem, operator, factor.orthonormal(elastic.as_ref()))?;
+    Ok(Independent { standing, modes })
 }
 
 /// Of two shapes that are the same the later one is the repetition, whichever was the better one.
@@ -185,20 +190,12 @@ impl Factor {
         rest
     }
 
-    /// The kept shapes as modes: X L⁻ᵀ.
-    fn modes(&self, problem: ModalProblem<'_>, operator: &dyn ShiftInvert, shapes: MatRef<'_, f64>) -> Modes {
+    /// The kept shapes, M-orthonormal: X L⁻ᵀ.
+    fn orthonormal(&self, shapes: MatRef<'_, f64>) -> Mat<f64> {
         let mut vectors = dense::columns(shapes, &self.kept);
-        if self.kept.is_empty() {
-            return Modes::none(shapes.nrows());
+        if !self.kept.is_empty() {
+            dense::divide(vectors.as_mut(), self.lower().as_ref());
         }
-        dense::divide(vectors.as_mut(), self.lower().as_ref());
-        let (values, ..) = rayleigh_quotients(problem, vectors.as_ref());
-        let mut order: Vec<usize> = (0..values.len()).collect();
-        order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
-        let vectors = dense::columns(vectors.as_ref(), &order);
-        let values = order.iter().map(|j| values[*j]).collect();
-        let pairs = Eigenpairs { values, vectors, next: None, work: EigenWork::default() };
-        let eigenproblem = Problem { operator, mass: problem.mass, deflated: problem.deflated };
-        judged(problem, eigenproblem, pairs, [None, None]).ascending()
+        vectors
     }
 }

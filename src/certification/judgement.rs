@@ -26,6 +26,8 @@ use crate::sparse::product;
 
 /// Share of its modal mass that a shape has of a mode at least, to be that mode.
 const MOSTLY: f64 = 0.5;
+/// The same of a shape that is independent of the others and has the force of an eigenvector: it may be a combination of two near modes.
+const PARTLY: f64 = 0.25;
 /// Relative difference of a frequency beyond which it is not that of its mode: reduced models are accepted with less.
 pub(super) const INEXACT: f64 = 1e-3;
 /// λ of rigid-body motion relative to the first elastic one: a hundredth of its frequency.
@@ -73,7 +75,7 @@ pub(super) fn judged_pairs(
     let residual_bars: Vec<f64> =
         (0..claims.count()).map(|claim| truth.residual_bar(claim, kinds[claim].cluster, measured)).collect();
     let of_shape = |claim: usize| {
-        let gap = kinds[claim].cluster.map_or(1.0, |cluster| truth.gap(cluster));
+        let gap = kinds[claim].cluster.map_or(1.0, |cluster| truth.gap(cluster, measured.lambda[claim]));
         of_digits_of_shape(claims, measured, (claim, gap))
     };
     let of_shapes: Vec<f64> = (0..claims.count()).map(of_shape).collect();
@@ -91,7 +93,8 @@ pub(super) fn judged_pairs(
     let pairs = (0..claims.count()).map(pair).collect();
     let angle_of = |claim: usize| {
         let cluster = kinds[claim].cluster?;
-        Some(angle(known, claim, (&truth.clusters[cluster], truth.gap(cluster)), measured))
+        let gap = truth.gap(cluster, measured.lambda[claim]);
+        Some(angle(known, claim, (&truth.clusters[cluster], gap), measured))
     };
     let angles = (0..claims.count()).map(angle_of).collect();
     let of_others = |claim: usize| Some(known?.of_others(claim, &truth.clusters[kinds[claim].cluster?]));
@@ -175,7 +178,7 @@ impl Truth<'_> {
             // modes of infinite frequency.
             let may_be_above = self.completed.is_asked || !claims.has_mass[claim];
             let above = Some(told).filter(|_| may_be_above);
-            kinds[claim] = self.found(claim, standing[claim], (shares, above), &mut taken);
+            kinds[claim] = self.found(claim, standing[claim], (shares, above), (measured, &mut taken));
         }
         (kinds, taken)
     }
@@ -185,30 +188,38 @@ impl Truth<'_> {
         claim: usize,
         standing: Standing,
         (shares, above): (&Mat<f64>, Option<f64>),
-        taken: &mut [Vec<usize>],
+        (measured, taken): (&Measured, &mut [Vec<usize>]),
     ) -> Found {
         let share_of =
             |cluster: usize| -> f64 { self.clusters[cluster].clone().map(|mode| shares[(mode, claim)].powi(2)).sum() };
-        let best = (0..self.clusters.len()).max_by(|a, b| share_of(*a).total_cmp(&share_of(*b)));
-        let best = best.filter(|best| share_of(*best) >= MOSTLY);
+        let most_of = |clusters: &mut dyn Iterator<Item = usize>, least: f64| {
+            clusters.max_by(|a, b| share_of(*a).total_cmp(&share_of(*b))).filter(|best| share_of(*best) >= least)
+        };
+        let has_room = |cluster: &usize| taken[*cluster].len() < self.clusters[*cluster].len();
+        let best = most_of(&mut (0..self.clusters.len()), MOSTLY);
+        // Two combinations of two modes are both, whichever is mostly which.
+        let best = match standing {
+            Standing::Kept => most_of(&mut (0..self.clusters.len()).filter(has_room), PARTLY).or(best),
+            _ => best,
+        };
         match (standing, best) {
             (Standing::Rigid, _) => Found { kind: PairKind::RigidBody, cluster: None, repeats: None },
             (Standing::DependsOn(other), _) => Found { kind: PairKind::Repeated, cluster: None, repeats: Some(other) },
-            (Standing::Kept, Some(cluster)) => {
+            (Standing::Kept | Standing::None, Some(cluster)) if has_room(&cluster) => {
                 taken[cluster].push(claim);
-                Found { kind: PairKind::Mode, cluster: Some(cluster), repeats: None }
-            }
-            (Standing::None, Some(cluster)) if taken[cluster].len() < self.clusters[cluster].len() => {
-                taken[cluster].push(claim);
-                Found { kind: PairKind::Inexact, cluster: Some(cluster), repeats: None }
+                let kind = if standing == Standing::Kept { PairKind::Mode } else { PairKind::Inexact };
+                Found { kind, cluster: Some(cluster), repeats: None }
             }
             // A poor copy of a mode that the result has.
-            (Standing::None, Some(cluster)) => {
+            (Standing::Kept | Standing::None, Some(cluster)) => {
                 Found { kind: PairKind::Repeated, cluster: None, repeats: taken[cluster].first().copied() }
             }
             // Its neighbours are not known, and it is a mode all the same.
-            (Standing::Kept, None) => Found { kind: PairKind::Mode, cluster: None, repeats: None },
-            (Standing::None, None) => {
+            (Standing::Kept, None) if !self.are_counted_around(measured.lambda[claim]) => {
+                Found { kind: PairKind::Mode, cluster: None, repeats: None }
+            }
+            // Of several modes, whose combination it is.
+            (Standing::Kept | Standing::None, None) => {
                 // What is told to lie above the modes that are known may be any.
                 let is_above = above.is_some_and(|told| told > self.completed.known_to * (1.0 + CLUSTER));
                 let kind = if is_above { PairKind::OutsideBand } else { PairKind::Invented };
@@ -217,13 +228,25 @@ impl Truth<'_> {
         }
     }
 
-    /// γ of a cluster: the relative distance of its θ to those of its neighbours.
-    fn gap(&self, cluster: usize) -> f64 {
+    /// Whether all modes near an eigenvalue are known.
+    fn are_counted_around(&self, lambda: f64) -> bool {
+        self.completed.counted.is_some_and(|[from, to]| from < lambda && lambda < to)
+    }
+
+    /// γ: how far ρ is from all eigenvalues but those of a cluster, or from where others may be, relative to their distance from σ; nothing
+    /// where the modes of the band were not counted.
+    fn gap(&self, cluster: usize, rho: f64) -> f64 {
         let Range { start, end } = self.clusters[cluster];
-        let own = |mode: usize| self.lambda[mode] - self.sigma;
-        let below = start.checked_sub(1).map(|below| (own(start) / own(below) - 1.0).abs());
-        let above = self.lambda.get(end).map(|above| (own(end - 1) / (above - self.sigma) - 1.0).abs());
-        below.into_iter().chain(above).fold(1.0, f64::min)
+        let Some([from, to]) = self.completed.counted else { return 0.0 };
+        let below = start.checked_sub(1).map_or(from, |below| self.lambda[below]);
+        let above = self.lambda.get(end).copied().unwrap_or(to);
+        // Beyond its neighbours a quotient is not that of the cluster.
+        if !(below < rho && rho < above) {
+            return 0.0;
+        }
+        let distance = |other: f64| ((rho - self.sigma) / (other - self.sigma) - 1.0).abs();
+        let of_below = if below.is_finite() { distance(below) } else { 1.0 };
+        of_below.min(distance(above)).min(1.0)
     }
 
     /// How far ρ may be from an eigenvalue by its residual, relative to it: δ, or δ²/γ where its mode is known.
@@ -233,7 +256,9 @@ impl Truth<'_> {
         let of_distance = |share: f64| share * ((lambda - self.sigma) / lambda).abs();
         let of_any = if lacking < 1.0 { lacking / (1.0 - lacking) } else { f64::INFINITY };
         let of_residual = match cluster {
-            Some(cluster) if lacking < self.gap(cluster) => of_any.min(lacking * lacking / self.gap(cluster)),
+            Some(cluster) if lacking < self.gap(cluster, lambda) => {
+                of_any.min(lacking * lacking / self.gap(cluster, lambda))
+            }
             _ => of_any,
         };
         of_distance(of_residual)

@@ -7,7 +7,7 @@ use super::{Pairs, bar, certify, document, lowest, of_kind, place_of, verdict};
 use supel_models::transform::rounded as of_digits;
 use supel_testing::place::steel_brick;
 
-fn rounded(value: f64, digits: usize) -> f64 {
+pub(super) fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().expect("a number")
 }
 
@@ -124,7 +124,7 @@ fn mixed(digits: usize, mix: impl Fn(&mut [Vec<f64>])) -> Pairs {
 }
 
 /// Turns two shapes into each other by an angle.
-fn turn(shapes: &mut [Vec<f64>], [a, b]: [usize; 2], angle: f64) {
+pub(super) fn turn(shapes: &mut [Vec<f64>], [a, b]: [usize; 2], angle: f64) {
     let (sin, cos) = angle.sin_cos();
     for row in 0..shapes[a].len() {
         let [x, y] = [shapes[a][row], shapes[b][row]];

@@ -11,6 +11,7 @@ mod found;
 mod frd;
 mod held_rows;
 mod left_out;
+mod near_modes;
 mod reduced;
 mod refused;
 mod rigid;

@@ -1,0 +1,64 @@
+//! Combinations of two modes whose frequencies are near are no modes: not both of them, not one, and not the last of a result.
+
+use std::f64::consts::FRAC_PI_4;
+
+use serde_json::Value;
+use supel::cli::ExitCode;
+use supel_models::{Material, Model, brick};
+
+use super::digits::{rounded, turn};
+use super::{Pairs, document, lowest, missing, place_of, verdict};
+
+/// The first two elastic modes, which bend a bar of nearly square section.
+const NEAR: [usize; 2] = [6, 7];
+
+/// A free bar whose section is deeper than wide by a share.
+fn oblong(share: f64) -> Model {
+    brick([8, 2, 2], [1.0, 0.05, 0.05 * (1.0 + share)], &Material::STEEL_SI)
+}
+
+/// The first pairs of a bar, the near modes turned into each other by an angle, with shapes of so many digits.
+fn turned(all: &Pairs, (count, angle, digits): (usize, f64, usize)) -> Pairs {
+    let mut pairs = all.clone();
+    turn(&mut pairs.shapes, NEAR, angle);
+    let [a, b] = NEAR.map(|mode| all.hertz[mode].powi(2));
+    let share = angle.sin().powi(2);
+    // Rayleigh quotients.
+    pairs.hertz[NEAR[0]] = ((1.0 - share) * a + share * b).sqrt();
+    pairs.hertz[NEAR[1]] = (share * a + (1.0 - share) * b).sqrt();
+    pairs.hertz[..6].fill(0.0);
+    pairs.hertz.truncate(count);
+    pairs.shapes.truncate(count);
+    pairs.shapes.iter_mut().flatten().for_each(|value| *value = rounded(*value, digits));
+    pairs
+}
+
+/// Every elastic pair has a mode of the model within its error bar, and what is missing is one.
+#[track_caller]
+fn assert_true(found: &Value, all: &Pairs) {
+    let nearest = |hertz: f64| all.hertz.iter().map(|mode| (mode - hertz).abs()).fold(f64::INFINITY, f64::min);
+    for pair in found["pairs"].as_array().expect("pairs").iter().skip(6) {
+        let [hertz, bar] = ["shape_hz", "error_bar_hz"].map(|key| pair[key].as_f64().expect(key));
+        assert!(nearest(hertz) <= bar + 1e-9 * hertz, "{hertz} ± {bar}, off by {}", nearest(hertz));
+    }
+    missing(found).into_iter().for_each(|hertz| assert!(nearest(hertz) <= 1e-5 * hertz, "missing {hertz}"));
+}
+
+#[test]
+fn combinations_of_two_near_modes_are_no_modes() {
+    for (share, digits) in [(1e-2, 5), (1e-2, 17), (3e-4, 17), (1e-3, 6)] {
+        let model = oblong(share);
+        let all = lowest(&model, 12);
+        for angle in [FRAC_PI_4, 0.6] {
+            let both = turned(&all, (10, angle, digits));
+            for result in [both.clone(), both.clone().without(NEAR[1]), turned(&all, (7, angle, digits))] {
+                let found = document(&place_of(&model, &result), "", ExitCode::CheckFailed);
+                assert_eq!(verdict(&found, "M-08"), Some("fail"), "{share} {angle} {digits}: {found}");
+                assert_true(&found, &all);
+            }
+        }
+        // The modes themselves are right.
+        let found = document(&place_of(&model, &turned(&all, (10, 0.0, digits))), "", ExitCode::Done);
+        assert_true(&found, &all);
+    }
+}
