@@ -17,7 +17,7 @@
 //! - Values in fixed point, such as `%.4f`, have one last decimal and digits by their size. D is the number of decimals that 99 of 100
 //!   different values do not exceed. Nine in ten of rounded values have D decimals, whatever their size, and nine in ten of those
 //!   with few digits have d digits, whatever theirs: more values with D decimals than with d digits, two thirds of all at least,
-//!   are fixed point.
+//!   are fixed point. With d above 6 the short numbers without D decimals do not count.
 //! - Up to 6 digits, or above 15, fixed point is believed only of 20 different values with a decimal after the point, whose last
 //!   decimals are six different digits at least. Halves and quarters end with a 5, multiples of 0.2 with even digits. So whole numbers
 //!   up to 999999, springs of 2 and −1 and lumped masses of 0.25 are exact: 17. A computed double has 16 or 17 digits; above 15, a tenth
@@ -253,9 +253,14 @@ fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, relative: Digits) -> O
     let decimals = decimals[(decimals.len() * 99).div_ceil(100) - 1];
     // Larger numbers have as many digits as a double has, and no more decimals than these leave.
     let short = || distinct.iter().filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
-    let full = || short().filter(|decimal| decimal.n_decimals() == decimals);
+    let is_full = |decimal: &&Decimal| decimal.n_decimals() == decimals;
+    let full = || short().filter(is_full);
+    // Of a source of many digits the round numbers of a regular mesh, 140000000 beside 157297777.78, tell nothing.
+    let tells =
+        |decimal: &&Decimal| digits <= MAX_EXACT_DIGITS || decimal.n_digits > MAX_EXACT_DIGITS || is_full(decimal);
     let n_full_digits = short().filter(|decimal| decimal.n_digits == digits).count();
-    if 3 * full().count() < 2 * short().count() || (is_of_few && full().count() <= n_full_digits) {
+    let is_seldom_full = 3 * full().count() < 2 * short().filter(tells).count();
+    if is_seldom_full || (is_of_few && full().count() <= n_full_digits) {
         return None;
     }
     if is_of_few && digits > MAX_EXACT_DIGITS {
@@ -281,6 +286,45 @@ mod tests {
     fn printed(values: &[f64], n_digits: usize) -> Vec<f64> {
         let rounded = |value: &f64| format!("{value:.*e}", n_digits - 1).parse().expect("a number");
         values.iter().map(rounded).collect()
+    }
+
+    /// Stiffnesses of a frame of equal beams: half of them are round, and the others repeating decimals.
+    #[test]
+    fn fixed_point_shows_beside_round_numbers() {
+        let of_beams = [
+            1.4e8,
+            1.26e6,
+            8.4e3,
+            2.8e8,
+            3.045e6,
+            2.03e4,
+            1.008e7,
+            5.04e5,
+            1.68e4,
+            1.218e6,
+            1.12e4,
+            2.24e5,
+            1416.0e6 / 9.0,
+            5.6e8 / 3.0,
+            8.12e4 / 3.0,
+            8.96e6 / 3.0,
+            1.624e6 / 3.0,
+            64.96e6 / 9.0,
+            75e3 / 19.0,
+            1e5 / 19.0,
+            15e4 / 19.0,
+            1.376_8e6 / 19.0,
+            1.949_9e6 / 19.0,
+            2.118_4e6 / 19.0,
+            642_215e3 / 3.0,
+        ];
+        for n_decimals in [0, 2, 3] {
+            let fixed: Vec<f64> =
+                of_beams.iter().map(|x| format!("{x:.n_decimals$}").parse().expect("a number")).collect();
+            assert_eq!(digits_of(&fixed).decimals, Some(n_decimals as i32), "{n_decimals}");
+        }
+        let relative = digits_of(&printed(&of_beams, 9));
+        assert_eq!((relative.decimals, relative.significant), (None, 9));
     }
 
     #[test]
