@@ -117,12 +117,15 @@ pub fn storage_within_memory(
     resources: Resources,
 ) -> Result<Storage> {
     let planned = (plan, compared);
-    let fits =
-        |storage| slices_within_memory(analysis, partition, planned, resources, (storage, None)).map(|_| storage);
+    let fits = |storage, n_modes| {
+        slices_within_memory(analysis, partition, planned, resources, (storage, n_modes)).map(|_| storage)
+    };
+    // Nothing is refused for modes that are assumed; a count in the band, once there is one, is held against the memory again.
+    let least = Some(n_looked_for(plan.job(), None).unwrap_or(0));
     match plan.job().run.precision {
-        Precision::Double => fits(Storage::Double),
-        Precision::Mixed => fits(Storage::Single),
-        Precision::Auto => fits(Storage::Double).or_else(|_| fits(Storage::Single)),
+        Precision::Double => fits(Storage::Double, least),
+        Precision::Mixed => fits(Storage::Single, least),
+        Precision::Auto => fits(Storage::Double, None).or_else(|_| fits(Storage::Single, least)),
     }
 }
 

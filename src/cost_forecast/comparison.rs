@@ -1,10 +1,11 @@
 //! What is compared of a component that moves, and what is left out because it would take longer than the reduction.
 
+use super::scan::scans;
 use super::sizes::{Proofs, Sizes};
 use super::stage::{Need, Stage, stages};
 use super::work::{NOMINAL, Work};
 use crate::factor::Analysis;
-use crate::job::{AnalysisJob, Certify, Job};
+use crate::job::{AnalysisJob, Certify, Job, ModeSelection};
 use crate::memory_forecast::{Compared, MODES_IN_A_BAND, RESPONSE_BLOCKS, Response, n_looked_for};
 use crate::number::quantity;
 use crate::partition::Partition;
@@ -20,6 +21,19 @@ pub enum Band {
     Known,
     /// Nothing gives one.
     None,
+}
+
+impl Band {
+    /// Of a plan that keeps so many modes, where that is known.
+    pub fn of(plan: &Plan, n_modes: Option<usize>) -> Self {
+        let job = plan.job();
+        let is_stated = job.scene.as_ref().is_some_and(|scene| scene.band_hz.is_some());
+        let of_modes = match job.reduction.wanted() {
+            ModeSelection::UpTo { up_to_hz } => up_to_hz > 0.0,
+            ModeSelection::Count { count } => n_modes.unwrap_or(count) > 0,
+        };
+        if is_stated || of_modes { Self::Known } else { Self::None }
+    }
 }
 
 /// The two comparisons of what moves.
@@ -60,16 +74,17 @@ impl Comparisons {
         let none = never.or(no_interface.filter(|_| accept.frequency.is_none()));
         let frequencies = weigh("frequencies under other boundaries", none, of_others, is_stated);
         let is_stated = is_full || scene.band_hz.is_some() || scene.damping.is_some() || accept.accepts_response();
-        let response = weigh("frequency response", never.or(no_interface), response(sizes), is_stated);
+        let response = weigh("frequency response", never.or(no_interface), response(job, sizes), is_stated);
         Self { frequencies, response }
     }
 
     /// What is compared, as far as it takes memory, of a planned run that looks for so many modes; where nobody knows how many, of as many as
     /// are assumed.
     pub fn in_memory(plan: &Plan, (partition, analysis): (&Partition, &Analysis), n_modes: Option<usize>) -> Compared {
+        let band = Band::of(plan, n_modes);
         let n_modes = n_looked_for(plan.job(), n_modes).unwrap_or(MODES_IN_A_BAND);
         let sizes = Sizes::of(plan, partition, analysis, (n_modes, 0));
-        let Self { frequencies, response } = Self::of(plan.job(), &sizes, Band::Known);
+        let Self { frequencies, response } = Self::of(plan.job(), &sizes, band);
         let is_compared = |stage: &Stage| matches!(stage.need, Need::By(_));
         let n_supports = n_supports(plan.job(), &sizes) as usize;
         Compared {
@@ -101,14 +116,16 @@ fn others(sizes: &Sizes, n_supports: f64) -> Work {
     sizes.eigensolution(sizes.n_modes) * n_supports + counted
 }
 
-/// The frequency response: blocks of solves until the answer converges, and the residuals of all samples, with the extended basis.
-fn response(sizes: &Sizes) -> Work {
+/// The frequency response: blocks of solves until the answer converges, and the residuals of all samples, with the extended basis; scans
+/// between the samples.
+fn response(job: &Job, sizes: &Sizes) -> Work {
     let n_b = sizes.n_interface;
     let extended = sizes.n_reduced() + RESPONSE_BLOCKS * n_b;
     sizes.solves(RESPONSE_BLOCKS * n_b)
         + sizes.products(RESPONSE_BLOCKS * 4.0 * n_b)
         + sizes.dense(12.0 * RESPONSE_BLOCKS * extended, n_b)
         + sizes.dense(2.0 * extended + n_b, 2.0 * extended + n_b)
+        + scans(job, sizes, extended)
 }
 
 /// Why a comparison is left out, with its estimate, where it costs more than the reduction itself.

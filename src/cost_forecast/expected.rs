@@ -52,7 +52,7 @@ impl ExpectedModes {
         let up_to_hz = match (plan.modes(), plan.job().reduction.wanted()) {
             (Modes::NotAsked, _) => return Ok(Self { count: 0, known: Known::Asked }),
             (Modes::Computed, ModeSelection::Count { count }) => {
-                return Ok(Self { count: count.min(partition.n_dofs()), known: Known::Asked });
+                return Ok(Self { count: count.min(most_modes(plan, partition)), known: Known::Asked });
             }
             (Modes::Computed, ModeSelection::UpTo { up_to_hz }) => up_to_hz,
         };
@@ -62,6 +62,14 @@ impl ExpectedModes {
             Some(count) => Self { count, known: Known::Counted },
             None => Self { count: MODES_IN_A_BAND, known: Known::Assumed },
         })
+    }
+}
+
+/// As many modes as a model has under the boundary of the job, at most.
+fn most_modes(plan: &Plan, partition: &Partition) -> usize {
+    match (plan.job().reduction.method.boundary(), partition.n_interface()) {
+        (Boundary::FixedInterface, 1..) => partition.n_internal,
+        _ => partition.n_dofs().saturating_sub(plan.facts().map_or(0, |facts| facts.n_rigid)),
     }
 }
 

@@ -6,7 +6,7 @@ use super::sizes::Sizes;
 use super::stage::{MODES, Stage, choice_of_modes, stages};
 use crate::error::Warning;
 use crate::factor::Analysis;
-use crate::job::{Boundary, ModeSelection};
+use crate::job::Boundary;
 use crate::memory_forecast::{self, Memory, Resources};
 use crate::partition::Partition;
 use crate::plan::{Mass, Plan};
@@ -52,7 +52,7 @@ impl Forecast {
         text_bytes: u64,
     ) -> Self {
         let sizes = Sizes::of(&plan, partition, analysis, (modes.count, text_bytes));
-        let comparisons = Comparisons::of(plan.job(), &sizes, band(&plan, modes));
+        let comparisons = Comparisons::of(plan.job(), &sizes, Band::of(&plan, Some(modes.count)));
         let mut stages = stages(&sizes);
         if plan.searched_hz().is_some() {
             let accept = plan.job().accepted();
@@ -71,7 +71,8 @@ impl Forecast {
         if modes.known != Known::Assumed {
             warnings.extend(size_forecast::of_modes(modes.count, plan.job()));
         }
-        let n_coordinates = sizes.n_reduced() as usize;
+        // Columns beyond that depend on others.
+        let n_coordinates = (sizes.n_reduced() as usize).min(partition.n_dofs());
         Self {
             allowed_bytes: resources.allowed(plan.job()),
             file_bytes: file_bytes(&plan, partition, &sizes),
@@ -89,17 +90,6 @@ impl Forecast {
     pub fn fits(&self) -> bool {
         self.allowed_bytes.is_none_or(|allowed| self.memory.total() <= allowed)
     }
-}
-
-/// Whether there is a band to compare in.
-fn band(plan: &Plan, modes: ExpectedModes) -> Band {
-    let job = plan.job();
-    let is_stated = job.scene.as_ref().is_some_and(|scene| scene.band_hz.is_some());
-    let of_modes = match job.reduction.wanted() {
-        ModeSelection::UpTo { up_to_hz } => up_to_hz > 0.0,
-        ModeSelection::Count { .. } => modes.count > 0,
-    };
-    if is_stated || of_modes { Band::Known } else { Band::None }
 }
 
 /// Bytes of the superelement file: full matrices, rows of recovery, and a document.

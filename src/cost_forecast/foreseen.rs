@@ -31,7 +31,7 @@ impl Foreseen {
     pub fn of(plan: &Plan, (partition, analysis): (&Partition, &Analysis), n_modes: Option<usize>) -> Self {
         let sizes = Sizes::of(plan, partition, analysis, (n_modes.unwrap_or(ASSUMED), 0));
         let stages = stages(&sizes);
-        let Comparisons { frequencies, response } = Comparisons::of(plan.job(), &sizes, Band::Known);
+        let Comparisons { frequencies, response } = Comparisons::of(plan.job(), &sizes, Band::of(plan, n_modes));
         let is_last = |name: &str| name.starts_with(COMPARISON);
         let of_comparison: f64 = stages
             .iter()

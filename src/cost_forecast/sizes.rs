@@ -43,6 +43,8 @@ pub struct Sizes {
     pub n_answers: f64,
     /// Interfaces by name.
     pub n_interfaces: f64,
+    /// Output dofs of the scene.
+    pub n_outputs: f64,
     /// Bytes of the files of K and M.
     pub text_bytes: f64,
     /// The form of the constraint modes.
@@ -68,7 +70,7 @@ impl Sizes {
             0 => facts.n_rigid,
             _ => plan.relief().motions(facts.n_rigid, facts.modes_in_file).len(),
         });
-        let n_residual = partition.loads.facts.iter().filter(|load| load.has_residual_vector).count();
+        let n_residual = partition.loads.n_residual_vectors();
         Self {
             n_answers: (n_relief + n_residual + partition.expansion.count()) as f64,
             text_bytes: text_bytes as f64,
@@ -92,6 +94,7 @@ impl Sizes {
             n_modes: n_modes as f64,
             n_answers: 0.0,
             n_interfaces: names.len() as f64,
+            n_outputs: partition.outputs.len() as f64,
             text_bytes: 0.0,
             statics: Statics::Stored,
             modes: Modes::Computed,

@@ -75,6 +75,14 @@ impl RowLoad {
 }
 
 impl Loads {
+    /// Residual vectors at most: the constraint modes have the answer to what acts on the interface alone.
+    pub fn n_residual_vectors(&self) -> usize {
+        let acts_inside = |load: usize| {
+            dense::column(self.vectors.as_ref(), load)[..self.n_internal].iter().any(|force| *force != 0.0)
+        };
+        (0..self.facts.len()).filter(|load| self.facts[*load].has_residual_vector && acts_inside(*load)).count()
+    }
+
     /// None.
     pub fn none(n_dofs: usize) -> Self {
         Self { facts: Vec::new(), vectors: Mat::zeros(n_dofs, 0), n_internal: 0 }

@@ -87,9 +87,9 @@ pub const RULES: [Rule; 30] = [
     },
     Rule {
         id: RuleId::K11,
-        leaves_out: "modes above the cut-off, where the job leaves their number to the band",
-        kind: Kind::WithinBars,
-        because: "a mode answers beyond its frequency as statics does, which the basis has",
+        leaves_out: "modes above the cut-off, where the job leaves their number to the band or to what is accepted",
+        kind: Kind::Always,
+        because: "nothing else says how many are kept; a mode answers beyond its frequency as statics does, which the basis has",
         guard: "M-06: a count up to the cut-off; M-20 and M-24: response and frequencies in the band",
         decide: decide::k11,
     },

@@ -209,7 +209,8 @@ impl PlanReport<'_> {
                 };
                 let band = number::quantity(hertz, 3);
                 format!(
-                    " with all {most} up to {band} Hz that are looked through; the fewest that `accept` allows stay"
+                    " with all {most} up to {band} Hz that are looked through first; the fewest that `accept` allows stay, \
+                     and where these do not do, twice or four times the band is looked through"
                 )
             }
             (Known::Asked, None) => String::new(),

@@ -65,18 +65,54 @@ fn what_the_plan_says_is_what_the_run_does() {
     }
 }
 
-/// A load without its residual vector has none, and a motion that the held interface does not let pass is elastic.
+/// A load without its residual vector has none, nor has one on the interface, no model has more modes than dofs, and a motion that the held interface does not let pass is elastic.
 #[test]
 fn coordinates_are_counted_as_the_run_makes_them() {
     const MIXED: &str = r#"method = "mixed-interface", held = ["root"], modes = { up_to_hz = 2500 }"#;
     const FORCE: &str = "[[load]]\nname = \"f\"\nnodes = [18]\nforce = [0, 1, 2]\n";
     const FORCE_ALONE: &str = "[[load]]\nname = \"f\"\nnodes = [18]\nforce = [0, 1, 2]\nresidual = false\n";
-    for (reduction, rest) in [(MIXED, ""), (CRAIG_BAMPTON, FORCE_ALONE), (CRAIG_BAMPTON, FORCE)] {
+    const AT_TIP: &str = "[[load]]\nname = \"f\"\nnodes = [7, 28, 63]\nforce = [0, 1, 2]\n";
+    const ALL: &str = r#"method = "craig-bampton", modes = { count = 400 }"#;
+    for (reduction, rest) in
+        [(MIXED, ""), (CRAIG_BAMPTON, FORCE_ALONE), (CRAIG_BAMPTON, FORCE), (CRAIG_BAMPTON, AT_TIP), (ALL, "")]
+    {
         let case = Case { rest, ..Case::new(PATCHES, reduction, "") };
         let (plan, made) = (planned(&case, &[]), case.made());
         assert_eq!(plan["answer"]["n_coordinates"], made.file.n_coordinates(), "{reduction} {rest}");
         assert_eq!(plan["modes"]["count"], made.file.tensors().frequencies.len(), "{reduction}");
     }
+}
+
+/// The vectors of a comparison that is left out are not held.
+#[test]
+fn what_is_not_compared_takes_no_memory() {
+    let guyan = r#"method = "guyan""#;
+    let bytes = |scene: &'static str| {
+        let plan = planned(&Case::new(PATCHES, guyan, scene), &[]);
+        let compared = stage(&plan, "frequency response")["needed_by"].is_string();
+        (compared, plan["memory"]["vector_bytes"].as_f64().expect("bytes"))
+    };
+    let (without, with) = (bytes(""), bytes("band_hz = [0, 1500]"));
+    assert_eq!((without.0, with.0), (false, true));
+    // Two rigid patches: twelve columns in a few blocks, where a response takes ten blocks of eighty.
+    assert!(without.1 < 0.3 * with.1, "{without:?} {with:?}");
+}
+
+/// Every output has a part in every point of the scans between samples, and light damping makes these many.
+#[test]
+fn outputs_and_light_damping_take_time() {
+    let seconds = |scene: &'static str| {
+        let plan = planned(&Case::new(PATCHES, HERTING, scene), &[]);
+        stage(&plan, "frequency response")["flops"].as_f64().expect("operations")
+    };
+    let plain = seconds("band_hz = [50, 1500]");
+    let with_outputs = seconds(
+        "band_hz = [50, 1500]\noutputs = { nodes = { within = { box = { min = [0, 0, 0], max = [9, 9, 9] } } } }",
+    );
+    let lightly_damped = seconds("band_hz = [50, 1500]\ndamping = { ratio = 0.001 }");
+    // 252 outputs, of which 48 are followed; ten times as many steps.
+    assert!(with_outputs > 2.0 * plain, "{with_outputs} {plain}");
+    assert!(lightly_damped > 2.0 * plain, "{lightly_damped} {plain}");
 }
 
 #[test]

@@ -52,20 +52,30 @@ impl Boundary {
         let own = Inertia::of(evidence);
         let inertia = mass.map_or(own, |mass| own.with_mass(mass / unit));
         let n_nodes = interface.n_nodes.max(1) as f64;
+        let is_rotation = |dof: usize| {
+            let site = partition.dofs[partition.n_internal + dof].site;
+            site.is_some_and(|site| site.direction.is_rotation())
+        };
         for dof in &interface.dofs {
-            let direction = partition.dofs[partition.n_internal + dof].site.map(|site| site.direction);
-            let is_rotation = direction.is_some_and(|direction| direction.is_rotation());
-            self.load[*dof] = if is_rotation { inertia.moment } else { inertia.mass } / n_nodes;
+            self.load[*dof] = if is_rotation(*dof) { inertia.moment } else { inertia.mass } / n_nodes;
         }
-        let whose = if mass.is_none() { ", those of the component itself" } else { "" };
+        // Nodes without rotations carry no moment.
+        let moments = match interface.dofs.iter().any(|dof| is_rotation(*dof)) {
+            true => format!(" with moments of inertia of {}", quantity(inertia.moment * unit, 4)),
+            false => String::new(),
+        };
+        let whose = match (mass, moments.is_empty()) {
+            (Some(_), _) => "",
+            (None, true) => ", that of the component itself",
+            (None, false) => ", those of the component itself",
+        };
         let without = partition.internal_directions(&interface.name);
         let words: Vec<String> = without.iter().map(ToString::to_string).collect();
         let but = if words.is_empty() { String::new() } else { format!(", but not along {}", words.join(" ")) };
         self.description = format!(
-            "{} carries a mass of {} with moments of inertia of {}{whose}{but}; nothing is held",
+            "{} carries a mass of {}{moments}{whose}{but}; nothing is held",
             interface.name,
-            quantity(inertia.mass * unit, 4),
-            quantity(inertia.moment * unit, 4)
+            quantity(inertia.mass * unit, 4)
         );
     }
 

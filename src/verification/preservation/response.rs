@@ -21,6 +21,7 @@ use super::scan::{Scan, highest};
 use super::shift::shift;
 use super::space::{FullModel, Known, Space};
 use crate::cache::{Cache, Key, Kind, recalled};
+use crate::cost_forecast::FOLLOWED;
 use crate::dense;
 use crate::eigen::Spectral;
 use crate::error::Result;
@@ -32,9 +33,6 @@ use crate::reduction::panel_of;
 const PASSES: usize = 3;
 /// Share of the largest error by which what a scan foresaw may miss what its samples then show.
 const SETTLED: f64 = 1e-3;
-
-/// Output dofs that are followed between samples at most.
-const FOLLOWED: usize = 48;
 
 /// The answers of the full model, for further reduced models to be compared with.
 pub(super) struct Full<'a> {

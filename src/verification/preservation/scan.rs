@@ -13,18 +13,9 @@ use rayon::prelude::*;
 use super::super::evidence::Evidence;
 use super::observed::{Observed, Response};
 use super::pair_error::{Dip, output_dips, output_errors, worst_dip, worst_pair};
+use crate::cost_forecast::{flops_of_a_point, points};
 use crate::dense;
 
-/// Steps in the width η f of a resonance or antiresonance. Half a step from its top the response is 1/√(1 + 1/16) of the peak: 0.3 dB.
-const STEPS_IN_A_PEAK: f64 = 4.0;
-/// Relative distance of points at most, however wide the damping makes a resonance: where responses cancel an error may be far narrower.
-pub(super) const WIDEST_STEP: f64 = 0.02;
-/// Points of a scan at most; η below 1/200 needs more over two decades.
-const MAX_POINTS: usize = 4096;
-/// Points of a scan where its products are large.
-const MIN_POINTS: usize = 256;
-/// Floating-point operations that a scan may cost: a second of one core.
-pub(super) const MAX_FLOPS: f64 = 1e10;
 /// Peaks that become samples.
 const MAX_PEAKS: usize = 12;
 /// Intervals whose chords pass by zero that are followed at most.
@@ -155,19 +146,12 @@ impl Scan<'_> {
 
     /// How many steps a scan between two frequencies takes, and the logarithm of each.
     fn steps(&self, [low, high]: [f64; 2]) -> (usize, f64) {
-        let decades = (high / low).ln();
-        let n_steps = self.n_steps(decades);
-        (n_steps, decades / n_steps as f64)
-    }
-
-    fn n_steps(&self, decades: f64) -> usize {
+        let width = (high / low).ln();
+        let (full, reduced) = (self.full, self.reduced);
+        let n_both = (full.n() + reduced.n()) as f64;
         let n_b = self.evidence.partition.n_interface() as f64;
-        // Real and imaginary part of n_B × r times r × n_B, for both models, and of as many rows more as there are outputs.
-        let flops =
-            4.0 * n_b * (n_b * (self.full.n() + self.reduced.n()) as f64 + self.full.n_seen() + self.reduced.n_seen());
-        let dear = ((MAX_FLOPS / flops) as usize).max(MIN_POINTS);
-        let step = (self.eta / STEPS_IN_A_PEAK).min(WIDEST_STEP);
-        ((decades / step).ceil() as usize).clamp(1, MAX_POINTS.min(dear))
+        let n_steps = points(width, self.eta, flops_of_a_point(n_b, n_both, full.n_seen() + reduced.n_seen()));
+        (n_steps, width / n_steps as f64)
     }
 
     fn point(&self, hz: f64) -> Point {
