@@ -27,13 +27,14 @@
 //! taken as the model has them.
 
 use faer::MatRef;
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::partition::Partition;
 use super::roundings::{Entry, Roundings};
 use crate::dense;
 use crate::error::Uncertain;
-use crate::sparse::{Leading, Rounding, absolute_product};
+use crate::sparse::{HalfUnits, Leading, Rounding, absolute_product};
 
 /// p: the chance that roundings of one matrix make more of the energy of one motion than is said.
 pub const CHANCE_OF_MORE: f64 = 1e-12;
@@ -42,8 +43,8 @@ const LARGEST_OF_MESHES: f64 = 1e3;
 /// Columns that one reading of the entries serves.
 const WIDTH: usize = 8;
 
-/// Σ h (Q⁺ + Q⁻) and Σ h² (Q⁺² + Q⁻²) of some columns.
-type Sums = [[f64; 2]; WIDTH];
+/// Of some columns: Σ h (Q⁺ + Q⁻) and Σ h² (Q⁺² + Q⁻²), or Σ h |w x̃_i x̃_j| and Σ h² w² x̃_i² x̃_j² of sums of parts.
+type Sums = [[f64; WIDTH]; 2];
 
 impl Partition {
     /// What rounding of the data of K can make of xᵀKx of each column, x of n' rows, or of n_I where the interface is held: certainly
@@ -114,37 +115,21 @@ impl Partition {
 
     fn panel_noise(&self, (roundings, rounding, unit): (&Roundings, Rounding, f64), x: MatRef<'_, f64>) -> Vec<f64> {
         let extended = self.extended(x);
-        let of_task = |task: &&[Entry]| {
-            let mut sums = Sums::default();
-            for of_one_size in task.chunk_by(|a, b| a.value.abs() == b.value.abs()) {
-                let h = rounding.half_unit(of_one_size[0].value.abs(), unit);
-                let mut weights = [[0.0f64; 2]; WIDTH];
-                for entry in of_one_size {
-                    let sign = if entry.row == entry.col { entry.value.signum() } else { 2.0 * entry.value.signum() };
-                    let (a, b) = (&extended[entry.row as usize], &extended[entry.col as usize]);
-                    for (weight, (a, b)) in weights.iter_mut().zip(a.iter().zip(b)) {
-                        let product = sign * a * b;
-                        let of_entry = match rounding.is_of_parts {
-                            true => [product.abs(), product * product],
-                            false => [product.max(0.0), (-product).max(0.0)],
-                        };
-                        weight.iter_mut().zip(of_entry).for_each(|(sum, value)| *sum += value);
-                    }
-                }
-                for (sum, [a, b]) in sums.iter_mut().zip(weights) {
-                    let of_size = if rounding.is_of_parts { [a, b] } else { [a + b, a * a + b * b] };
-                    sum[0] += h * of_size[0];
-                    sum[1] += h * h * of_size[1];
-                }
-            }
-            sums
+        let of_task = |entries: &&[Entry]| {
+            let half_units = HalfUnits::new(rounding, unit);
+            Arch::new().dispatch(TaskSums {
+                entries,
+                extended: &extended,
+                half_units,
+                is_of_parts: rounding.is_of_parts,
+            })
         };
         let tasks = roundings.tasks();
         let parts: Vec<Sums> = tasks.par_iter().map(of_task).collect();
         let tail = (2.0 * (2.0 / CHANCE_OF_MORE).ln() / 3.0).sqrt();
         (0..x.ncols())
             .map(|j| {
-                let [all, squares] = [0, 1].map(|which| parts.iter().map(|part| part[j][which]).sum::<f64>());
+                let [all, squares] = [0, 1].map(|which| parts.iter().map(|part| part[which][j]).sum::<f64>());
                 all.min(tail * (if rounding.is_of_parts { rounding.n_alike * squares } else { squares }).sqrt())
             })
             .collect()
@@ -188,10 +173,14 @@ impl Partition {
         found
     }
 
-    /// T x at the dofs of the partition and at the rows of patches, row by row.
+    /// T x at the dofs of the partition and at the rows of patches, row by row; zeros behind the rows and columns of x.
     fn extended(&self, x: MatRef<'_, f64>) -> Vec<[f64; WIDTH]> {
-        let own = (0..self.n_dofs()).map(|dof| row_of(x, dof));
-        own.chain(self.at_patches(x, |term| term)).collect()
+        let mut extended = vec![[0.0; WIDTH]; self.n_dofs()];
+        for (j, column) in x.col_iter().enumerate() {
+            extended.iter_mut().zip(column.iter()).for_each(|(row, value)| row[j] = *value);
+        }
+        extended.extend(self.at_patches(x, |term| term));
+        extended
     }
 
     /// Sums of what `of` makes of the terms of T x, at the rows of patches.
@@ -203,6 +192,55 @@ impl Partition {
             }
             sums
         })
+    }
+}
+
+/// The sums of a task over its entries, those of one size together.
+struct TaskSums<'a> {
+    entries: &'a [Entry],
+    extended: &'a [[f64; WIDTH]],
+    half_units: HalfUnits,
+    is_of_parts: bool,
+}
+
+impl TaskSums<'_> {
+    /// With two weights of the terms w x̃_i x̃_j of entries of one size, and what these are in the sums.
+    #[inline(always)]
+    fn of(mut self, weights: impl Fn(f64) -> [f64; 2], of_size: impl Fn([f64; 2]) -> [f64; 2]) -> Sums {
+        let mut sums = Sums::default();
+        for of_one_size in self.entries.chunk_by(|a, b| a.value.abs() == b.value.abs()) {
+            let h = self.half_units.of(of_one_size[0].value.abs());
+            let mut of_terms = [[0.0; WIDTH]; 2];
+            for entry in of_one_size {
+                let sign = if entry.row == entry.col { entry.value.signum() } else { 2.0 * entry.value.signum() };
+                let (a, b) = (&self.extended[entry.row as usize], &self.extended[entry.col as usize]);
+                for j in 0..WIDTH {
+                    let [first, second] = weights(sign * a[j] * b[j]);
+                    of_terms[0][j] += first;
+                    of_terms[1][j] += second;
+                }
+            }
+            for j in 0..WIDTH {
+                let [all, squares] = of_size([of_terms[0][j], of_terms[1][j]]);
+                sums[0][j] += h * all;
+                sums[1][j] += h * h * squares;
+            }
+        }
+        sums
+    }
+}
+
+impl WithSimd for TaskSums<'_> {
+    type Output = Sums;
+
+    /// In the widest vectors that the processor has; a product and a sum are rounded one by one all the same.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Sums {
+        let positive = |term: f64| if term > 0.0 { term } else { 0.0 };
+        match self.is_of_parts {
+            true => self.of(|term| [term.abs(), term * term], |of_terms| of_terms),
+            false => self.of(|term| [positive(term), positive(-term)], |[a, b]| [a + b, a * a + b * b]),
+        }
     }
 }
 

@@ -27,7 +27,7 @@ pub use pencil::{Pencil, Precision};
 pub(crate) use principal::principal;
 pub use product::{absolute_product, multiply, panels, product, product_and_terms};
 pub(crate) use rounding::ends;
-pub use rounding::{Differing, Rounding};
+pub use rounding::{Differing, HalfUnits, Rounding};
 pub(crate) use triangle::Mirrored;
 pub use triangle::Triangle;
 pub use turning::{Turned, TurnedRoundings, Turning};

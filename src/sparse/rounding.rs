@@ -147,11 +147,6 @@ impl Rounding {
         terms
     }
 
-    /// Half a unit of the last digit of an entry of this size in a matrix of a unit; all digits are those of user units.
-    pub fn half_unit(self, size: f64, unit: f64) -> f64 {
-        if self.is_beyond_entries() { self.of_entry(size, 0.0) } else { half_unit(size * unit, self.relative) / unit }
-    }
-
     /// How well entries are known, as an error message has it.
     pub fn in_words(self) -> String {
         let Self { relative, share, .. } = self;
@@ -176,19 +171,50 @@ impl std::fmt::Display for Differing {
     }
 }
 
+/// Half units of the last digits of entries of a matrix of a unit, one after the other; all digits are those of user units.
+///
+/// A decade is looked for where an entry is of another one than that before it.
+#[derive(Clone, Copy, Debug)]
+pub struct HalfUnits {
+    rounding: Rounding,
+    unit: f64,
+    decade: f64,
+}
+
+impl HalfUnits {
+    /// Of the entries of a matrix with this unit.
+    pub fn new(rounding: Rounding, unit: f64) -> Self {
+        Self { rounding, unit, decade: 0.0 }
+    }
+
+    /// Half a unit of the last digit of an entry of this size.
+    pub fn of(&mut self, size: f64) -> f64 {
+        if self.rounding.is_beyond_entries() {
+            return self.rounding.of_entry(size, 0.0);
+        }
+        let size = size * self.unit;
+        if !(self.decade <= size && size < 10.0 * self.decade) {
+            self.decade = decade(size);
+        }
+        half_unit(size, self.decade, self.rounding.relative) / self.unit
+    }
+}
+
 /// √(A_ii A_jj).
 pub(crate) fn ends(diagonal: &[f64], row: usize, col: usize) -> f64 {
     (diagonal[row].abs() * diagonal[col].abs()).sqrt()
 }
 
-/// Half a unit of the last digit of a number of this size, where such a half is `precision` of the smallest number of as many
-/// digits.
-fn half_unit(size: f64, precision: f64) -> f64 {
-    let mut decade = 10f64.powi(size.log10().floor() as i32);
+/// The power of ten that a number begins with.
+fn decade(size: f64) -> f64 {
+    let decade = 10f64.powi(size.log10().floor() as i32);
     // A logarithm may round up just below a power of ten; a decade that is too small would promise too much.
-    if 10.0 * decade <= size {
-        decade *= 10.0;
-    }
+    if 10.0 * decade <= size { 10.0 * decade } else { decade }
+}
+
+/// Half a unit of the last digit of a number of this size and decade, where such a half is `precision` of the smallest number of as
+/// many digits.
+fn half_unit(size: f64, decade: f64, precision: f64) -> f64 {
     precision * decade.max(LEAST_SHARE * size)
 }
 
@@ -201,10 +227,10 @@ mod tests {
         // Four digits: 1.234e3 is known to 0.5, 9.876e-5 to 0.5e-8.
         let precision = 0.5e-3;
         for (size, half) in [(1234.0, 0.5), (1000.0, 0.5), (6.5e2, 0.05), (1.0e-300, 0.5e-303)] {
-            let found = half_unit(size, precision);
+            let found = half_unit(size, decade(size), precision);
             assert!((found / half - 1.0).abs() < 1e-12, "{size}: {found}");
         }
         // Of a nine no less than an eighth of its size.
-        assert_eq!(half_unit(9.876e-5, precision), precision * 9.876e-5 / 8.0);
+        assert_eq!(half_unit(9.876e-5, 1e-5, precision), precision * 9.876e-5 / 8.0);
     }
 }

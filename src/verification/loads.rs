@@ -162,7 +162,11 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
     const MAX_STEPS: usize = 500;
     let mass = evidence.partition.internal().mass;
     let inverse: Vec<f64> = mass.diagonal().into_iter().map(|m| if m > 0.0 { 1.0 / m } else { 0.0 }).collect();
-    let precondition = |r: &Mat<f64>| Mat::from_fn(r.nrows(), r.ncols(), |i, j| r[(i, j)] * inverse[i]);
+    let precondition = |r: &Mat<f64>| {
+        let mut z = r.clone();
+        z.col_iter_mut().for_each(|z| z.iter_mut().zip(&inverse).for_each(|(z, inverse)| *z *= inverse));
+        z
+    };
     let dots = |a: &Mat<f64>, b: &Mat<f64>| dense::dots(a.as_ref(), b.as_ref());
     let gamma = gamma.to_owned();
     let sizes = dots(&gamma, &precondition(&gamma));
@@ -186,7 +190,10 @@ fn interior_masses(evidence: &Evidence<'_>, gamma: MatRef<'_, f64>, start: MatRe
         z = precondition(&r);
         let next = dots(&r, &z);
         let beta: Vec<f64> = next.iter().zip(&rz).map(|(new, old)| if *old > 0.0 { new / old } else { 0.0 }).collect();
-        p = Mat::from_fn(p.nrows(), p.ncols(), |i, j| z[(i, j)] + beta[j] * p[(i, j)]);
+        for (j, beta) in beta.into_iter().enumerate() {
+            let along = dense::column_mut(p.as_mut(), j).iter_mut().zip(dense::column(z.as_ref(), j));
+            along.for_each(|(p, z)| *p = z + beta * *p);
+        }
         rz = next;
     }
     None
