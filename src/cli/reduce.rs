@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use supel_runtime::{StagedFile, Superelement};
 
 use super::answer::{Program, Terminal};
+use super::cache_choice::CacheChoice;
 use super::exit_code::ExitCode;
 use super::judging::{Answer, Strictness};
 use super::outputs::{Outputs, abandoned, refuse_unwritable, staged};
@@ -26,8 +27,7 @@ use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, su
 use crate::verification::check::{Check, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
-    let (job, document) = (&command.job, command.document.as_deref());
-    let own = OwnFiles::of(&overwriting::inputs(job, document), &overwriting::outputs(&job.write))?;
+    let own = own_files(command)?;
     if command.answer != Answer::Nothing {
         command.remarks.iter().for_each(|remark| terminal.complain(remark));
     }
@@ -45,7 +45,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     if command.available_bytes.is_some() && terminal.program == Program::Supel {
         process::end_with_parent()?;
     }
-    let cache = opened_cache(command)?;
+    let cache = command.cache.as_ref().map(CacheChoice::open).transpose()?;
     let memory_bytes = command.available_bytes.or_else(memory::available_bytes);
     let resources = Resources { memory_bytes, cache: cache.as_ref() };
     let rehearsed = match terminal.program {
@@ -106,13 +106,16 @@ fn cache_complaints(command: &ReduceCommand, cache: Option<&Cache>) -> Vec<Strin
     }
 }
 
-/// The cache of the run. A folder that is an input or an output of it is refused.
-fn opened_cache(command: &ReduceCommand) -> Result<Option<Cache>> {
-    let Some(choice) = &command.cache else { return Ok(None) };
+/// What the run writes. A cache that is an input or an output of it is refused.
+fn own_files(command: &ReduceCommand) -> Result<OwnFiles> {
+    let inputs = overwriting::inputs(&command.job, command.document.as_deref());
     let mut outputs = overwriting::outputs(&command.job.write);
-    outputs.push((choice.key, choice.folder.clone()));
-    OwnFiles::of(&overwriting::inputs(&command.job, command.document.as_deref()), &outputs)?;
-    choice.open().map(Some)
+    let own = OwnFiles::of(&inputs, &outputs)?;
+    if let Some(choice) = &command.cache {
+        outputs.push((choice.key, choice.folder.clone()));
+        OwnFiles::of(&inputs, &outputs)?;
+    }
+    Ok(own)
 }
 
 /// What the job asks for, where an earlier run has made all of it and nothing has changed since.

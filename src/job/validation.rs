@@ -54,9 +54,10 @@ fn reduction(job: &Job) -> Result<()> {
     let needs_none = has_band || is_static && job.run.skip == Skip::ByScene;
     let job = &job.reduction;
     let method = job.method.key();
-    let computed = format!(
-        "expected how many modes {method} keeps: {{ count = 40 }}, {{ up_to_hz = 1000 }} or {{ accept = true }}, or a `band_hz` of the scene"
-    );
+    // A static scene has no band that could say it.
+    let by_band = if is_static { "" } else { " or { accept = true }, or a `band_hz` of the scene" };
+    let computed =
+        format!("expected how many modes {method} keeps: {{ count = 40 }} or {{ up_to_hz = 1000 }}{by_band}");
     let of_file = format!("expected the file of the modes that {method} takes: {{ file = \"modes.mtx\" }}");
     let refuse = |found, expected| Err(Error::JobModes { found, expected });
     match (job.method.modes(), &job.modes) {
