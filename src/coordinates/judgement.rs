@@ -224,7 +224,18 @@ impl Case<'_> {
             let (rotations, n_zero) = (named(&rotations), zeros.count());
             return Err(Error::RotationsHeld { rotations, directions, n_zero, energy: cost.energy, dof: at });
         }
-        Err(self.misfit(zeros, &rotations, Cost { expected, ..cost }, at))
+        let mut error = self.misfit(zeros, &rotations, Cost { expected, ..cost }, at);
+        if let Error::CoordinatesDoNotFit { found, .. } = &mut error
+            && zeros.count() <= self.n_explained
+        {
+            let directions: Vec<String> =
+                rotations.iter().map(|motion| format!("\"{}\"", Direction::ALL[*motion])).collect();
+            *found += &format!(
+                ", unless supports hold nodes there in rotation, which `model.held_rotations = [{}]` says",
+                directions.join(", ")
+            );
+        }
+        Err(error)
     }
 
     /// Whether a row is of a node that a patch ties.
@@ -312,8 +323,11 @@ impl Case<'_> {
     fn misfit(&self, zeros: &Zeros, costly: &[usize], cost: Cost, dof: String) -> Error {
         let Cost { energy, of, expected } = cost;
         let (n_zero, n_explained) = (zeros.count(), self.n_explained);
-        let mut found =
-            format!("it has {n_zero} motions without energy, of which the coordinates explain {n_explained}");
+        let mut found = match n_zero > n_explained {
+            true => format!("it has {n_zero} motions without energy, of which the coordinates explain {n_explained}"),
+            // Those that cost nothing as they are need no explanation.
+            false => format!("it has {n_zero} motions without energy, no more than the coordinates explain"),
+        };
         if n_zero > n_explained && (costly.is_empty() || energy <= expected) {
             // Nothing is wrong with what they cost: there are too many.
             return Error::CoordinatesDoNotFit {

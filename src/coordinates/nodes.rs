@@ -107,7 +107,11 @@ fn lacking(motions: &Motions<'_>, of_row: &[u32], n_nodes: usize) -> Vec<u8> {
     }
     let n_places = has.iter().filter(|has| has.contains(&true)).count();
     let n_with = |direction: usize| has.iter().filter(|has| has[direction]).count();
+    let turns = |has: &[bool; 6]| has[FIRST_ROTATION..].contains(&true);
+    let n_turning = has.iter().filter(|has| turns(has)).count();
     let usual: [bool; 6] = std::array::from_fn(|direction| 2 * n_with(direction) > n_places);
+    // A node of a solid lacks no rotation, and a node that has two may lack the third, though it be one of two nodes of a condensed stiffness.
+    let usual_of_turning: [bool; 6] = std::array::from_fn(|direction| 2 * n_with(direction) >= n_turning);
     let mut lacks = vec![0u8; n_nodes];
     for body in &motions.bodies {
         for row in &body.rows {
@@ -118,7 +122,8 @@ fn lacking(motions: &Motions<'_>, of_row: &[u32], n_nodes: usize) -> Vec<u8> {
                 // A rotation about an axis moves each of the two directions across it by the lever along the other.
                 let across = [(axis + 1) % 3, (axis + 2) % 3];
                 let lacks_displacement = !has[across[0]] && lever(across[1]) || !has[across[1]] && lever(across[0]);
-                let lacks_rotation = usual[FIRST_ROTATION + axis] && !has[FIRST_ROTATION + axis];
+                let rotation = FIRST_ROTATION + axis;
+                let lacks_rotation = !has[rotation] && (usual[rotation] || turns(&has) && usual_of_turning[rotation]);
                 lacks[node] |= u8::from(lacks_displacement) * (DISPLACEMENT << axis);
                 lacks[node] |= u8::from(lacks_rotation) * (ROTATION << axis);
             }

@@ -132,10 +132,11 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
         is_held_and_gives_way((&places(model), &dense::diagonal(model.mass.as_ref())), model.rigid.as_ref())?
             .then_some(HELD_ROWS)
     };
+    let assumes = assumed_by_all(assembly);
     let mut held: BTreeSet<String> = superelements().flat_map(held_rotations).collect();
     if without_nodes.is_none() {
         let rows = (&*places(model), &*dense::diagonal(model.mass.as_ref()));
-        let found = rotations_held_alone(rows, matrices(model), model.rigid.as_ref())?;
+        let found = rotations_held_alone(rows, matrices(model), (model.rigid.as_ref(), &assumes))?;
         held.extend(found.iter().map(ToString::to_string));
     }
     let mut remarks = remarks(assembly, &band);
@@ -151,7 +152,7 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
         held_rotations: held.into_iter().collect(),
         mechanisms: mechanisms_of_whole(assembly, model)?,
         digits,
-        assumes: assumed_by_all(assembly),
+        assumes,
         interfaces: model.interfaces.iter().map(selection).collect(),
         fixed: model.fixed.iter().map(selection).collect(),
         loads: loads.map(|(name, residual)| LoadColumn { name: name.clone(), residual: *residual }).collect(),

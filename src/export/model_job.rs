@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
 use crate::input::strainless::{Condensed, condensed_stiffness, masses, places};
 use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
-use crate::job::Mechanisms;
+use crate::job::{AssumesJob, Mechanisms};
 use crate::report::printable;
 
 /// The job that reduces the superelement in the file `path` as it is, TOML: its matrices, its nodes and its loads are read of that file. With
@@ -52,6 +52,7 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
     let without_nodes = without_nodes(superelement)?;
     let has_map = !labels.is_empty() && without_nodes.is_none();
     let mut remarks: Vec<String> = without_nodes.into_iter().map(str::to_owned).collect();
+    let assumes = assumed(superelement);
     let held = if has_map { held(superelement.metadata()) } else { held_interfaces(superelement.metadata()) };
     let (method, relief) = match method(superelement) {
         ("mixed-interface", relief) if held.is_empty() => {
@@ -65,13 +66,13 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
         map: if has_map { Map::Nodes } else { Map::Rows },
         units: superelement.metadata().units.clone(),
         held_rotations: if has_map {
-            with_held_alone(superelement, &condensed.stiffness)?
+            with_held_alone((superelement, &assumes), &condensed.stiffness)?
         } else {
             held_rotations(superelement)
         },
         mechanisms: mechanisms(superelement),
         digits,
-        assumes: assumed(superelement),
+        assumes,
         interfaces: if has_map || labels.is_empty() {
             interfaces(superelement, &labels)
         } else {
@@ -133,11 +134,11 @@ pub(super) fn held_rotations(superelement: &Superelement) -> Vec<String> {
 }
 
 /// Rotations that supports hold alone, by the job and by the motions of the superelement: its job may hold them as dofs that are at rest.
-fn with_held_alone(superelement: &Superelement, stiffness: &Matrix) -> Result<Vec<String>> {
+fn with_held_alone((superelement, assumes): (&Superelement, &AssumesJob), stiffness: &Matrix) -> Result<Vec<String>> {
     let tensors = superelement.tensors();
     let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
     let rows = (&*places(superelement), &*masses(superelement));
-    let found = rotations_held_alone(rows, [k.as_ref(), m.as_ref()], u.as_ref())?;
+    let found = rotations_held_alone(rows, [k.as_ref(), m.as_ref()], (u.as_ref(), assumes))?;
     let all: BTreeSet<String> =
         held_rotations(superelement).into_iter().chain(found.iter().map(ToString::to_string)).collect();
     Ok(all.into_iter().collect())

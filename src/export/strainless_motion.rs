@@ -8,6 +8,7 @@ use supel_runtime::Direction;
 use crate::dense;
 use crate::error::Result;
 use crate::input::strainless::{Place, basis, lengths};
+use crate::job::AssumesJob;
 use crate::model::{Frame, Site};
 
 /// The sine of the angle between a motion and those of the nodes. Coordinates of five digits leave less.
@@ -42,20 +43,26 @@ pub(super) fn gives_way(
     Ok(false)
 }
 
-/// Rotations that supports hold of a part which they let move along every axis.
+/// Rotations that supports hold of a part which they let move along every axis; where nodes lack rotations that the model has, also those
+/// that nothing makes, however it moves along the axes: no row of these nodes answers for them.
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
 pub(super) fn rotations_held_alone(
     rows: (&[Option<Place>], &[f64]),
     matrices: [MatRef<'_, f64>; 2],
-    rigid: MatRef<'_, f64>,
+    (rigid, assumed): (MatRef<'_, f64>, &AssumesJob),
 ) -> Result<BTreeSet<Direction>> {
+    let missing = assumed.at_rest.iter().chain(&assumed.left_out);
+    let lack_rotations = missing.filter_map(|part| part.ending()).any(|(_, direction)| direction.is_rotation());
     let mut held = BTreeSet::new();
     for part in parts(matrices) {
-        let costly = Motions::of(rows, &part, rigid)?.held()?;
+        let motions = Motions::of(rows, &part, rigid)?;
+        let costly = motions.held()?;
         if costly.iter().all(|direction| direction.is_rotation()) {
             held.extend(costly);
+        } else if lack_rotations {
+            held.extend(motions.unturned()?);
         }
     }
     Ok(held)
@@ -108,6 +115,24 @@ impl Motions {
             }
         }
         Ok(held)
+    }
+
+    /// Rotations that no motion without strain makes, together with any translation: those that translations and motions without strain do
+    /// not span.
+    fn unturned(&self) -> Result<Vec<Direction>> {
+        const FIRST: usize = 3;
+        let n_rows = self.of_nodes.nrows();
+        let ones = vec![1.0; n_rows];
+        let along = |i: usize, j: usize| if j < FIRST { self.of_nodes[(i, j)] } else { self.free[(i, j - FIRST)] };
+        let spanned = basis(Mat::from_fn(n_rows, FIRST + self.free.ncols(), along).as_ref(), &ones)?;
+        let mut unturned = Vec::new();
+        for column in FIRST..Direction::ALL.len() {
+            let own = basis(self.of_nodes.as_ref().subcols(column, 1), &ones)?;
+            if beyond(own.as_ref(), spanned.as_ref())? > OTHER {
+                unturned.push(Direction::ALL[column]);
+            }
+        }
+        Ok(unturned)
     }
 }
 

@@ -17,8 +17,14 @@ impl InterfacePart {
         if is_interface(&self.0) {
             return Some((&self.0, None));
         }
+        let (name, direction) = self.ending()?;
+        is_interface(name).then_some((name, Some(direction)))
+    }
+
+    /// What stands before the direction that it ends with, and that direction; none where it ends with none.
+    pub fn ending(&self) -> Option<(&str, Direction)> {
         let (name, direction) = self.0.rsplit_once('.')?;
         let direction = Direction::ALL.into_iter().find(|known| known.to_string() == direction)?;
-        is_interface(name).then_some((name, Some(direction)))
+        Some((name, direction))
     }
 }

@@ -1,7 +1,8 @@
 //! What the messages name, what a job may state, and what an expectation is compared with.
 
 use supel::cli::ExitCode;
-use supel_models::Model;
+use supel_models::transform::supported;
+use supel_models::{Inertia, Material, Model, Section, frame};
 
 use crate::faults::{against_rotation, block, clamped};
 use crate::place::{Ended, Place, supel};
@@ -73,6 +74,22 @@ fn rotations_that_supports_hold_alone_are_said_in_the_job() {
     let (place, ended) = by_job(&against_rotation(&block(), &[0, 1, 2], 1e-9), "", FOOT);
     assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
     assert_eq!(warnings(&place), ["W-GROUNDED"]);
+}
+
+/// Of two nodes one has no row along x and none about y: it answers for no rotation about y, although nothing touches it.
+#[test]
+fn a_rotation_that_one_of_two_nodes_lacks_is_held() {
+    let ends = [[0.0; 3], [1.0, 0.0, 0.0]];
+    let beam = frame(&ends, &[[0, 1]], &Section::round(0.05), &Material::STEEL_SI, Inertia::Consistent);
+    let (place, ended) = by_job(&supported(&beam, |dof| dof == (1, 0) || dof == (1, 4)), "", "nodes = [1, 2]");
+    assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
+    assert_eq!(place.superelement("x.supel").tensors().rigid_body_modes.cols(), 4);
+    // Where both lack it the message names the key that says so.
+    let both = supported(&beam, |dof| dof == (1, 0) || dof.1 == 4);
+    let (_, ended) = by_job(&both, "", "nodes = [1, 2]");
+    assert!(ended.err.contains("E-COORD") && ended.err.contains("`model.held_rotations = [\"ry\"]`"), "{}", ended.err);
+    let (_, ended) = by_job(&both, "held_rotations = [\"ry\"]", "nodes = [1, 2]");
+    assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
 }
 
 #[test]

@@ -168,3 +168,29 @@ fn rotations_that_are_held_alone_are_known_again() {
         }
     }
 }
+
+/// Nodes in line along x, of which supports hold one along x and in bending: no translation makes a force at it, and of two nodes it lacks the
+/// rotation that would answer. So it is where both nodes lack it, of each of which the scene says something else.
+#[test]
+fn rotations_that_are_held_with_a_translation_are_known_again() {
+    let nodes: Vec<[f64; 3]> = (0..5).map(|i| [0.2 * f64::from(i), 0.0, 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (1..5).map(|i| [i - 1, i]).collect();
+    let line = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    let interface = "interface = [{ name = \"i\", nodes = [1] }, { name = \"j\", nodes = [5] }]\n";
+    for method in ["herting", "craig-bampton"] {
+        let method = format!("reduction = {{ method = \"{method}\", modes = {{ count = 3 }} }}\n");
+        for (scene, n_rigid) in [
+            ("grounded = [\"i.ux\", \"i.ry\"]", 4),
+            ("grounded = [\"i.ux\", \"i.rz\"]", 4),
+            ("grounded = [\"i.ux\", \"i.ry\", \"j.rx\"], unloaded = [\"i.uy\", \"i.rz\", \"j.ry\"]", 3),
+        ] {
+            let place = Place::with(&line);
+            reduced(&place, ("", &format!("{interface}{method}scene = {{ {scene} }}\n")));
+            again(&place, ["x.supel", "y.supel"]);
+            supel(&["verify", &place.text("y.supel"), "--job", &place.text("x.supel")]).expect(ExitCode::Done);
+            let [first, second] = ["x.supel", "y.supel"].map(|name| place.superelement(name));
+            assert_eq!([first.n_rigid(), second.n_rigid()], [n_rigid; 2], "{scene}");
+            assert_close(&frequencies_hz(&second), &frequencies_hz(&first), 1e-8);
+        }
+    }
+}
