@@ -2245,7 +2245,7 @@ pub enum Error {
         /// The entry, and the one across the diagonal.
         values: [f64; 2],
     },
-    /// A further matrix is zero on all that moves.
+    /// A further matrix is zero on all that moves, or what rounding leaves of zero.
     #[entry("E-MATRIX-NOTHING", InputData, "check that its file is the right one, or leave the matrix out")]
     #[error("matrix `{matrix}` does nothing – found {found} – expected an entry on dofs that move – leave it out")]
     MatrixNothing {

@@ -25,6 +25,10 @@ use crate::sparse::{SparseMatrix, absolute_product};
 /// Exponents of the largest entry in the user's units: products of two such numbers with squares of shapes are numbers.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -400..=400;
 
+/// What is left of an entry whose terms cancel, relative to these: factors of T are made of tens of rounded numbers, and sums have hundreds of
+/// terms.
+const ROUNDING: f64 = 4096.0 * f64::EPSILON;
+
 /// A further matrix on the dofs of a partition.
 #[derive(Clone, Debug)]
 pub struct CarriedMatrix {
@@ -112,21 +116,25 @@ impl CarriedMatrix {
     /// TᵀAT of each matrix.
     ///
     /// # Errors
-    /// [`Error::MatrixNothing`] where a matrix is zero on the dofs that move.
+    /// [`Error::MatrixNothing`] where a matrix is zero on the dofs that move, or what rounding leaves of zero.
     pub fn carried(matrices: Vec<RowMatrix>, transformation: &Transformation) -> Result<Vec<Self>> {
         let has_sums = transformation.rows.iter().any(|row| matches!(row, TransformationRow::Tied(_)));
         let moduli = has_sums.then(|| transformation.of_moduli());
         let of_row = |RowMatrix { facts, matrix: mut of_rows }: RowMatrix| {
             let matrix = general_congruence(&of_rows, transformation);
-            if matrix.data().iter().all(|value| *value == 0.0) {
-                return Err(Error::MatrixNothing { matrix: facts.name, found: "all of it on held dofs" });
-            }
+            let found = match is_all_held(&of_rows, transformation) {
+                true => "all of it on held dofs",
+                false => "nothing of it but rounding where patches and constraints let dofs move",
+            };
             let is_damping = facts.kind == MatrixKind::Damping;
             let sizes = (is_damping || has_sums).then(|| {
                 to_terms(&mut of_rows, facts.kind);
                 general_congruence(&of_rows, moduli.as_ref().unwrap_or(transformation))
             });
-            Ok(Self { facts, matrix, sizes })
+            match is_rounding(&matrix, sizes.as_ref().filter(|_| has_sums)) {
+                true => Err(Error::MatrixNothing { matrix: facts.name, found }),
+                false => Ok(Self { facts, matrix, sizes }),
+            }
         };
         matrices.into_iter().map(of_row).collect()
     }
@@ -136,6 +144,20 @@ impl CarriedMatrix {
         let sizes = self.sizes.as_ref().unwrap_or(&self.matrix);
         [absolute_product(sizes, u), absolute_product(&sizes.transpose_view().to_csr(), u)]
     }
+}
+
+/// Whether every entry is in a row or a column at rest.
+fn is_all_held(matrix: &SparseMatrix, transformation: &Transformation) -> bool {
+    let is_held = |row: usize| matches!(transformation.rows[row], TransformationRow::Held);
+    let of_row = |row: usize| matrix.outer_view(row).into_iter().flat_map(|row| row.into_raw_storage().0);
+    (0..matrix.rows()).filter(|row| !is_held(*row)).flat_map(of_row).all(|col| is_held(*col as usize))
+}
+
+/// Whether all entries are zero or what rounding leaves of sums of these sizes.
+fn is_rounding(matrix: &SparseMatrix, sizes: Option<&SparseMatrix>) -> bool {
+    let size = |row: usize, col: usize| sizes.and_then(|sizes| sizes.get(row, col)).copied().unwrap_or(0.0);
+    let mut rows = matrix.outer_iterator().enumerate();
+    rows.all(|(i, row)| row.iter().all(|(j, value)| value.abs() <= ROUNDING * size(i, j)))
 }
 
 /// S of the module in place of A.

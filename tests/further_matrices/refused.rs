@@ -54,6 +54,26 @@ fn files_of_matrices_that_cannot_be_taken() {
     assert_ne!(supel(&["reduce", &case.place.text("job.toml"), "--report", &output]).code, ExitCode::Done);
 }
 
+/// A damper between two nodes of a rigid patch does nothing: rounding is left of it, and nothing is held.
+#[test]
+fn a_damper_within_a_rigid_patch_does_nothing() {
+    let case = Case::new(steel_brick());
+    let at = |label: i64| case.model.nodes[case.model.labels.iter().position(|own| *own == label).expect("a node")];
+    let row = |dof: (i64, u8)| case.model.dofs.iter().position(|own| *own == dof).expect("a dof") as u32;
+    let damper = |[from, to]: [i64; 2]| -> Entries {
+        let along: [f64; 3] = std::array::from_fn(|axis| at(to)[axis] - at(from)[axis]);
+        let of = |label: i64, sign: f64| (0..3u8).map(move |axis| (row((label, axis)), sign * along[axis as usize]));
+        let terms: Vec<(u32, f64)> = of(from, -1.0).chain(of(to, 1.0)).collect();
+        terms.iter().flat_map(|(i, a)| terms.iter().map(move |(j, b)| (*i, *j, a * b))).collect()
+    };
+    let table = "[[matrix]]\nname = \"damper\"\nkind = \"damping\"\nfile = \"C.mtx\"\n";
+    case.matrix("C.mtx", "symmetric", &damper([5, 25]));
+    let ended = case.run(FOOT_AND_HUB, CRAIG_BAMPTON, table);
+    assert!(ended.err.contains("E-MATRIX-NOTHING") && ended.err.contains("patches and constraints"), "{}", ended.err);
+    case.matrix("C.mtx", "symmetric", &damper([5, 41]));
+    case.run(FOOT_AND_HUB, CRAIG_BAMPTON, table).expect(ExitCode::Done);
+}
+
 /// Damping of the stiffness is free of rigid-body motion, however few digits it is written with; a damper to the ground is not.
 #[test]
 fn dampers_to_the_ground_are_told_from_rounding() {
