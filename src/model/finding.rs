@@ -165,6 +165,21 @@ pub enum Finding {
         /// By how much of the displacements that it compares.
         share: f64,
     },
+    /// Constraints of few digits that were set right within these.
+    ConstraintMended {
+        /// The one that resisted a motion most, from one.
+        row: usize,
+        /// Its dofs.
+        dofs: String,
+        /// The rigid-body motion that it resisted.
+        motion: &'static str,
+        /// How many were set right.
+        n_rows: usize,
+        /// By how much of the displacements that it compares it resisted.
+        share: f64,
+        /// By how much of its largest factor another was changed at most.
+        change: f64,
+    },
     /// Interface dofs with mass and no stiffness.
     HangingInterface {
         /// What the first is called.
@@ -228,7 +243,7 @@ impl Finding {
             Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
             Self::MassFar { .. } => Some("W-MASS-FAR"),
             Self::ConstraintGround { .. } => Some("W-CONSTRAINT-GROUND"),
-            Self::ConstraintRounded { .. } => Some("W-CONSTRAINT-ROUNDED"),
+            Self::ConstraintRounded { .. } | Self::ConstraintMended { .. } => Some("W-CONSTRAINT-ROUNDED"),
             Self::HangingInterface { .. } => Some("W-HANGING"),
         }
     }
@@ -280,6 +295,9 @@ impl std::fmt::Display for Finding {
             }
             Self::ConstraintRounded { row, dofs, motion, n_rows, share } => {
                 f.write_str(&words::little_resistance((*row, dofs), motion, *n_rows, *share))
+            }
+            Self::ConstraintMended { row, dofs, motion, n_rows, share, change } => {
+                f.write_str(&words::set_right((*row, dofs), motion, *n_rows, [*share, *change]))
             }
             Self::HangingInterface { dof, n_dofs } => {
                 let dofs = counted(*n_dofs, "interface dof has", "interface dofs have");

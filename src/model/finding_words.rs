@@ -119,9 +119,21 @@ pub(super) fn mass_far(interface: &str, centre: [f64; 3], [distance, loss]: [f64
 
 pub(super) fn little_resistance((row, dofs): (usize, &str), motion: &str, n_rows: usize, share: f64) -> String {
     format!(
-        "{} rigid-body motion, most of all row {row} ({dofs}) the {motion}, by {share:.0e} of the displacements that it compares: its \
-         factors or the coordinates have few digits, and the component is held by as much; write them with all their digits",
+        "{} rigid-body motion, most of all row {row} ({dofs}) the {motion}, by {share:.0e} of the displacements that it compares, and the \
+         digits of its factors do not explain it: coordinates have few digits, or nodes are that far apart; the component is held by as much, \
+         or its parts move against each other by as much in motions that cost nothing, so that rigid-body motions may be told as soft or as \
+         motions inside, and checks of them may fail by it; write factors and coordinates with all their digits, and ties of nodes that are \
+         apart with their levers",
         counted(n_rows, "constraint resists", "constraints resist")
+    )
+}
+
+pub(super) fn set_right((row, dofs): (usize, &str), motion: &str, n_rows: usize, [share, change]: [f64; 2]) -> String {
+    format!(
+        "{} rigid-body motion by what their few digits leave, most of all row {row} ({dofs}) the {motion}, by {share:.0e} of the \
+         displacements that it compares: factors were set right within their digits, there by up to {change:.0e} of the largest, and let it \
+         pass; the error bars of frequencies do not count what the digits of constraints leave open; write them with all their digits",
+        counted(n_rows, "constraint resisted", "constraints resisted")
     )
 }
 

@@ -6,6 +6,7 @@ use crate::error::{Selector, Warning};
 use crate::factor::Refinement;
 use crate::input::{Faces, PatchFaces};
 use crate::job::{Boundary, Coupling, Mechanisms, Precision};
+use crate::model::Finding;
 use crate::number::counted;
 use crate::verification::check::Verdict;
 use crate::verification::{LARGEST_OF_MESHES, Penalties, penalties as penalties_of};
@@ -26,11 +27,12 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
         warnings.push(Warning {
             code: "W-MECHANISM",
             message: format!(
-                "{} no energy{}, {n_mechanisms} of them inside the component{largest}: they are kept as zero modes \
+                "{} no energy{}, {n_mechanisms} of them inside the component{largest}{}: they are kept as zero modes \
                  like rigid-body motions; close hinges and sliding joints if none were meant, or say \
                  model.mechanisms = \"accept\"",
                 counted(rigid.count(), "motion costs", "motions cost"),
-                as_far_as_digits_tell(results)
+                as_far_as_digits_tell(results),
+                by_constraints(results)
             ),
         });
     }
@@ -50,6 +52,15 @@ pub(super) fn of_motions(results: &Results<'_>) -> Vec<Warning> {
         });
     }
     warnings
+}
+
+/// What else a motion inside may be, where constraints resist rigid-body motion a little.
+fn by_constraints(results: &Results<'_>) -> &'static str {
+    let findings = &results.evidence.partition.model.findings;
+    match findings.iter().any(|finding| matches!(finding, Finding::ConstraintRounded { .. })) {
+        true => ", unless they are rigid-body motions that constraints resist, as W-CONSTRAINT-ROUNDED says",
+        false => "",
+    }
 }
 
 /// What a motion that is kept as free may be slower than, where K has few digits.

@@ -17,15 +17,22 @@ use crate::model::{Finding, Frame, Model, Site};
 /// leave less.
 const ROUNDED: f64 = 1e-4;
 /// Share up to which nobody rounded: products and sums of doubles leave less.
-const EXACT: f64 = 1e-9;
+pub(super) const EXACT: f64 = 1e-9;
 /// Share of the largest term of a constraint below which another is what rounding left of none.
 const NOTHING: f64 = 16.0 * f64::EPSILON;
 
 /// A constraint and the motion that it resists.
-struct Resisting<'a> {
-    constraint: &'a Constraint,
+pub(super) struct Resisting<'a> {
+    pub(super) constraint: &'a Constraint,
     motion: usize,
-    share: f64,
+    pub(super) share: f64,
+}
+
+impl Resisting<'_> {
+    /// What the motion is called.
+    pub(super) fn name(&self) -> &'static str {
+        MOTIONS[self.motion]
+    }
 }
 
 /// The motion that constraints resist most; none where they let all pass, and where nothing tells the directions of rows. One that they
@@ -39,7 +46,7 @@ pub(super) fn held_motion(model: &Model, given: &ConstraintRows) -> Result<Optio
     let Some(worst) = resisting.iter().reduce(|worst, next| if next.share > worst.share { next } else { worst }) else {
         return Ok(None);
     };
-    let (row, motion, n_rows) = (worst.constraint.row + 1, MOTIONS[worst.motion], resisting.len());
+    let (row, motion, n_rows) = (worst.constraint.row + 1, worst.name(), resisting.len());
     let dofs = worst.constraint.dofs(model.names());
     if worst.share <= ROUNDED {
         let (dofs, share) = (dofs.join(", "), worst.share);
@@ -53,7 +60,7 @@ pub(super) fn held_motion(model: &Model, given: &ConstraintRows) -> Result<Optio
 }
 
 /// The unit motions of the rows of a model, as far as dof map and coordinates tell.
-struct Motions<'a> {
+pub(super) struct Motions<'a> {
     model: &'a Model,
     sites: Option<Vec<Option<Site>>>,
     centre: [f64; 3],
@@ -61,7 +68,7 @@ struct Motions<'a> {
 }
 
 impl<'a> Motions<'a> {
-    fn of(model: &'a Model) -> Self {
+    pub(super) fn of(model: &'a Model) -> Self {
         let sites = model.sites();
         let every: Vec<usize> = (0..model.n_dofs()).collect();
         let (centre, size) = match &sites {
@@ -74,14 +81,29 @@ impl<'a> Motions<'a> {
         Self { model, sites, centre, size }
     }
 
-    /// The six motions of a row; without coordinates the translations, without a dof map nothing.
-    fn at(&self, row: usize) -> [f64; 6] {
+    /// Whether rows have places.
+    pub(super) fn are_placed(&self) -> bool {
+        self.sites.is_some()
+    }
+
+    /// The six motions of the rows of a constraint about their own middle.
+    pub(super) fn about_middle(&self, constraint: &Constraint) -> Vec<[f64; 6]> {
+        let rows = || constraint.terms.iter().map(|(row, _)| *row as usize);
+        let sites = self.sites.as_deref().unwrap_or_default();
+        let places: Vec<[f64; 3]> = rows().filter_map(|row| sites.get(row)?.map(|site| site.position)).collect();
+        let mean = |axis: usize| places.iter().map(|place| place[axis]).sum::<f64>() / places.len().max(1) as f64;
+        let middle = [0, 1, 2].map(mean);
+        rows().map(|row| self.at(row, middle)).collect()
+    }
+
+    /// The six motions of a row about a point; without coordinates the translations, without a dof map nothing.
+    fn at(&self, row: usize, centre: [f64; 3]) -> [f64; 6] {
         if let Some(rounded) = self.model.fit.rounded() {
-            return rounded.motion(row, self.centre);
+            return rounded.motion(row, centre);
         }
         let direction = || self.model.dofs.as_ref()?[row].map(|dof| dof.direction);
         match (&self.sites, direction()) {
-            (Some(sites), _) => sites[row].map_or([0.0; 6], |site| site.rigid_motion_about(self.centre)),
+            (Some(sites), _) => sites[row].map_or([0.0; 6], |site| site.rigid_motion_about(centre)),
             (None, Some(direction)) if !direction.is_rotation() => {
                 std::array::from_fn(|motion| f64::from(u8::from(motion == direction.axis())))
             }
@@ -90,7 +112,7 @@ impl<'a> Motions<'a> {
     }
 
     /// The motion that a constraint resists most, relative to displacements of all of its dofs of the size that the motion has anywhere.
-    fn resisted<'b>(&self, constraint: &'b Constraint) -> Option<Resisting<'b>> {
+    pub(super) fn resisted<'b>(&self, constraint: &'b Constraint) -> Option<Resisting<'b>> {
         let (mut sums, mut sizes) = ([0.0f64; 6], [0.0f64; 6]);
         let turns = |row: u32| {
             let dof = self.model.dofs.as_ref().and_then(|dofs| dofs[row as usize]);
@@ -99,7 +121,7 @@ impl<'a> Motions<'a> {
         let size_of = |(row, value): &(u32, f64)| value.abs() / if turns(*row) { self.size } else { 1.0 };
         let largest = constraint.terms.iter().map(size_of).fold(0.0, f64::max);
         for (row, value) in constraint.terms.iter().filter(|term| size_of(term) > NOTHING * largest) {
-            let motion = self.at(*row as usize);
+            let motion = self.at(*row as usize, self.centre);
             let turns = turns(*row);
             for j in 0..6 {
                 sums[j] += value * motion[j];

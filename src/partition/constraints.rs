@@ -11,9 +11,9 @@
 
 use std::collections::BTreeMap;
 
-use super::constraint_ground;
 use super::elimination::{Elimination, Obstacle, Terms, eliminated, summed};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
+use super::{constraint_digits, constraint_ground};
 use crate::error::{Error, Result};
 use crate::input::{Constraint, ConstraintRows};
 use crate::model::{Finding, Frame, Model};
@@ -39,6 +39,8 @@ const OF_PATCH: u32 = u32::MAX;
 pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(Transformation, usize, Vec<Finding>)> {
     let Some(given) = &model.constraints else { return Ok((transformation, 0, Vec::new())) };
     refuse_out_of_range(given)?;
+    let (given, mended) = constraint_digits::set_right(model, given)?;
+    let given = &given;
     let ground = constraint_ground::held_motion(model, given)?;
     let whole = size(model);
     let scales = scales(given, &transformation, whole);
@@ -67,7 +69,7 @@ pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(
     let empty = given.n_rows - given.list.len() as u64;
     let redundant = redundant.iter().map(|number| given.list[*number].row + 1).collect();
     let found = Finding::Constrained { n_rows: given.list.len(), n_dependent, largest, redundant, empty };
-    Ok((transformation, n_dependent, std::iter::once(found).chain(ground).collect()))
+    Ok((transformation, n_dependent, std::iter::once(found).chain(mended).chain(ground).collect()))
 }
 
 /// Refuses coefficients whose products with coordinates may be no numbers.

@@ -15,6 +15,7 @@ mod axes;
 mod boundary;
 mod carried_loads;
 mod congruence;
+mod constraint_digits;
 mod constraint_ground;
 mod constraints;
 mod direct_nodes;

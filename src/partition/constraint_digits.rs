@@ -1,0 +1,131 @@
+//! Constraints of few digits, set right within these digits.
+//!
+//! ```text
+//! g    n_t        factors of one constraint
+//! C    n_t × 6    the six unit motions of its rows about their middle
+//! h    n_t        half a unit of the last digit of each factor
+//! (g + d)ᵀC = 0, Σ (dᵢ/hᵢ)² least:  d = H z,  B = H C = U S Vᵀ,  z = −U S⁻¹ Vᵀ Cᵀg
+//! ```
+//! A constraint between nodes lets rigid-body motion pass, and one that was written with few digits does but for these. As it stands it holds
+//! rotations by next to nothing: they would be neither without energy nor elastic, and nothing told from the stiffness says which. The digits
+//! that were lost are those that let rigid-body motion pass, as far as anybody knows. A tie of nodes that are apart has no such digits.
+
+use faer::Mat;
+
+use super::constraint_ground::{EXACT, Motions, Resisting};
+use crate::dense;
+use crate::error::Result;
+use crate::input::{Constraint, ConstraintRows};
+use crate::model::{Finding, Model};
+
+/// Digits that factors are taken to have at least.
+const FEWEST: i32 = 4;
+/// Half a unit of the last of these: what is resisted more is no rounding.
+const ROUNDED: f64 = 5e-4;
+/// Digits of a double; a factor that needs as many was not rounded to fewer.
+const OF_DOUBLE: i32 = 16;
+/// Roundings that each factor may be off by in the mean: its own, and that of the coordinates that it was made of.
+const ROUNDINGS: f64 = 2.0;
+/// Singular values of unit columns, relative to the largest, that are rounding of coordinates: nodes in line turn about none.
+const NOTHING: f64 = 1e-9;
+
+/// The constraints with those set right that digits alone keep from letting rigid-body motion pass, and what is to be said of these.
+///
+/// # Errors
+/// [`crate::error::Error::DenseEigen`].
+pub(super) fn set_right(model: &Model, given: &ConstraintRows) -> Result<(ConstraintRows, Option<Finding>)> {
+    let motions = Motions::of(model);
+    let mut rows = given.clone();
+    let mut worst: Option<(Resisting<'_>, f64)> = None;
+    let mut n_rows = 0;
+    if !motions.are_placed() {
+        return Ok((rows, None));
+    }
+    for (constraint, own) in given.list.iter().zip(&mut rows.list) {
+        let Some(resisting) = motions.resisted(constraint).filter(|resisting| resisting.share <= ROUNDED) else {
+            continue;
+        };
+        let Some(right) = within_digits(&motions, constraint)? else { continue };
+        if motions.resisted(&right).is_some_and(|left| left.share > EXACT) {
+            continue;
+        }
+        let change = change(constraint, &right);
+        *own = right;
+        n_rows += 1;
+        if worst.as_ref().is_none_or(|(worst, _)| resisting.share > worst.share) {
+            worst = Some((resisting, change));
+        }
+    }
+    let finding = worst.map(|(resisting, change)| {
+        let (row, dofs) = (resisting.constraint.row + 1, resisting.constraint.dofs(model.names()).join(", "));
+        Finding::ConstraintMended { row, dofs, motion: resisting.name(), n_rows, share: resisting.share, change }
+    });
+    Ok((rows, finding))
+}
+
+/// The constraint that lets all motions pass and is nearest to this one by its digits; none where these do not reach it.
+fn within_digits(motions: &Motions<'_>, constraint: &Constraint) -> Result<Option<Constraint>> {
+    let terms = &constraint.terms;
+    let of_rows = motions.about_middle(constraint);
+    let half_units = half_units(terms);
+    let weighted = Mat::from_fn(terms.len(), 6, |i, j| half_units[i] * of_rows[i][j]);
+    let norms: Vec<f64> = (0..6).map(|j| dense::norm(dense::column(weighted.as_ref(), j))).collect();
+    let moving: Vec<usize> = (0..6).filter(|j| norms[*j] > 0.0).collect();
+    // No fewer rows than columns.
+    let n_rows = terms.len().max(moving.len());
+    let unit = Mat::from_fn(n_rows, moving.len(), |i, j| {
+        if i < terms.len() { weighted[(i, moving[j])] / norms[moving[j]] } else { 0.0 }
+    });
+    let left = |j: &usize| terms.iter().zip(&of_rows).map(|((_, value), of)| value * of[*j]).sum::<f64>() / norms[*j];
+    let left: Vec<f64> = moving.iter().map(left).collect();
+    let (singular, directions) = dense::right_singular(unit.as_ref())?;
+    let mut steps = vec![0.0; terms.len()];
+    for (k, size) in singular.iter().enumerate().filter(|(_, size)| **size > NOTHING * singular[0]) {
+        let along: f64 = (0..moving.len()).map(|j| directions[(j, k)] * left[j]).sum::<f64>() / size.powi(2);
+        for (i, step) in steps.iter_mut().enumerate() {
+            *step -= along * (0..moving.len()).map(|j| unit[(i, j)] * directions[(j, k)]).sum::<f64>();
+        }
+    }
+    if dense::norm(&steps) > ROUNDINGS * (terms.len() as f64).sqrt() {
+        return Ok(None);
+    }
+    let right = terms.iter().zip(half_units.iter().zip(&steps));
+    let right = right.map(|((row, value), (half_unit, step))| (*row, value + half_unit * step)).collect();
+    Ok(Some(Constraint { row: constraint.row, terms: right }))
+}
+
+/// Half a unit of the last digit of each factor. The longest of them tells how many digits all have, or how many decimals: of few factors it
+/// is not known which, and it is the coarser.
+fn half_units(terms: &[(u32, f64)]) -> Vec<f64> {
+    let forms: Vec<(i32, i32)> = terms.iter().map(|(_, value)| decimal_form(*value)).collect();
+    let n_digits = forms.iter().fold(FEWEST, |most, (n_digits, _)| most.max(*n_digits));
+    let n_decimals = forms.iter().map(|(n_digits, exponent)| n_digits - 1 - exponent).max().unwrap_or(0);
+    let exponent = forms.iter().map(|(_, exponent)| *exponent).max().unwrap_or(0);
+    let of_decimals = half(-n_decimals.max(FEWEST - 1 - exponent));
+    let are_single = terms.iter().all(|(_, value)| f64::from(*value as f32) == *value);
+    let of_each = |((_, value), (_, exponent)): (&(u32, f64), &(i32, i32))| match n_digits < OF_DOUBLE {
+        true => half(exponent + 1 - n_digits).max(of_decimals),
+        false if are_single => f64::from(f32::EPSILON) / 2.0 * value.abs(),
+        false => f64::EPSILON * value.abs(),
+    };
+    terms.iter().zip(&forms).map(of_each).collect()
+}
+
+/// Half of a power of ten.
+fn half(exponent: i32) -> f64 {
+    0.5 * 10f64.powi(exponent)
+}
+
+/// How many digits the shortest decimal form of a number has, and the power of ten of the first.
+fn decimal_form(value: f64) -> (i32, i32) {
+    let text = format!("{:e}", value.abs());
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    (digits.bytes().filter(u8::is_ascii_digit).count() as i32, exponent.parse().unwrap_or(0))
+}
+
+/// By how much of the largest factor another was changed at most.
+fn change(constraint: &Constraint, right: &Constraint) -> f64 {
+    let largest = constraint.terms.iter().fold(0.0f64, |max, (_, value)| max.max(value.abs()));
+    let changes = constraint.terms.iter().zip(&right.terms).map(|((_, from), (_, to))| (to - from).abs());
+    changes.fold(0.0, f64::max) / largest
+}
