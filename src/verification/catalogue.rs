@@ -161,7 +161,7 @@ pub const OF_RESULTS: &[Entry] = &[
         Proof::Measured,
         Recorded::Sometimes,
         "Frequencies of the superelement with its interface free against those of the component, within the band, of modes whose shapes are \
-         the same. Above it they may differ.",
+         the same. Above it they may differ. Where one of K̂ and M̂ alone is not that of the basis (C-07), it is named.",
         "Keep more modes, or ask for a --band that ends lower.",
     ),
     line(

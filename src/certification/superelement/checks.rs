@@ -4,7 +4,7 @@ use faer::Mat;
 
 use super::compared::Compared;
 use super::dependence;
-use super::foreign::{Difference, Foreign};
+use super::foreign::{Difference, Foreign, Pair};
 use crate::audit::{condition_of, negative_mass};
 use crate::certification::strayed;
 use crate::dense;
@@ -67,7 +67,7 @@ impl Compared<'_> {
                 false => format!("{} and {}, {factor} times as large", self.name(i), self.name(j)),
             }
         });
-        Check { id: "C-07", name, equation, value, limits, fail_above: limits.value().max(1e-3), worst }
+        Check { id: "C-07", name, equation, value, limits, fail_above: projection_fails(&limits), worst }
     }
 
     /// M-06: of the component's own modes that are compared with.
@@ -114,7 +114,7 @@ impl Compared<'_> {
         Check {
             id: "M-12",
             name: "as many motions without stiffness as K",
-            equation: "eigenvalues of K̂, M̂ below half of the first elastic one of K, M, less rigid-body modes",
+            equation: "eigenvalues of K̂, ΨᵀMΨ below half of the first elastic one of K, M, less rigid-body modes",
             value: n_given.abs_diff(n_asked) as f64,
             limits: Limits::default(),
             fail_above: 0.0,
@@ -208,14 +208,28 @@ impl Compared<'_> {
             fail_above: self.frequency_fails,
             worst: Some(match pair.reduced_hz.is_finite() {
                 true => format!(
-                    "elastic mode {} at {} Hz, {} Hz in the superelement",
+                    "elastic mode {} at {} Hz, {} Hz in the superelement{}",
                     at + 1,
                     quantity(pair.full_hz, 7),
-                    quantity(pair.reduced_hz, 7)
+                    quantity(pair.reduced_hz, 7),
+                    if value > FREQUENCY { self.culprit() } else { "" }
                 ),
                 false => format!("elastic mode {} at {} Hz, which it has not", at + 1, quantity(pair.full_hz, 7)),
             }),
         })
+    }
+
+    /// Which matrix frequencies are wrong by, where one of them alone is not that of the basis.
+    fn culprit(&self) -> &'static str {
+        let is_wrong = |pair: &Pair| {
+            let Difference { value, limits, .. } = pair.worst(self.foreign.rounding);
+            value > projection_fails(&limits)
+        };
+        match (is_wrong(&self.foreign.stiffness), is_wrong(&self.foreign.mass)) {
+            (false, true) => ", by its mass, which is not that of the basis",
+            (true, false) => ", by its stiffness, which is not that of the basis",
+            _ => "",
+        }
     }
 
     /// C-09.
@@ -296,6 +310,11 @@ impl Compared<'_> {
             worst,
         }
     }
+}
+
+/// Difference from what the basis makes of a matrix that fails.
+fn projection_fails(limits: &Limits) -> f64 {
+    limits.value().max(1e-3)
 }
 
 /// M-23.

@@ -21,7 +21,7 @@ pub(super) struct Compared<'a> {
     pub(super) reduced: Option<Vec<f64>>,
     /// What the digits of K̂ and M̂ may make of each of them, relative to it; nothing where they have all digits.
     pub(super) of_digits: Vec<f64>,
-    /// Of them, how many are no elastic mode's.
+    /// How many motions K̂ leaves free: as many of the lowest of them are no elastic mode's.
     pub(super) n_without_stiffness: usize,
     pub(super) rigid: Nearest,
     /// ‖x − Ψq‖ of each mode of the component, x of unit mass and q the best there is.
@@ -46,7 +46,7 @@ pub(super) struct Nearest {
 impl Compared<'_> {
     /// λ of the superelement that elastic modes have.
     pub(super) fn elastic(&self) -> &[f64] {
-        self.reduced.as_deref().map_or(&[], |reduced| &reduced[self.n_without_stiffness..])
+        self.reduced.as_deref().and_then(|reduced| reduced.get(self.n_without_stiffness..)).unwrap_or_default()
     }
 
     /// The eigenvalue of the superelement that lies above that of an elastic mode of the component by Courant and Fischer, with what the digits

@@ -1,7 +1,8 @@
 //! Whether the columns of a basis are independent, and K̂ and M̂ not singular together: C-11.
 //!
 //! ```text
-//! G    Ψᵀ diag(K) Ψ   singular where a column is made up of others
+//! G    Ψᵀ diag(K) Ψ   singular where a column is made up of others; a row without stiffness counts by its mass, times the least
+//!                     K_jj / M_jj of the other rows
 //! H    K̂ + M̂         singular where a motion has neither stiffness nor mass
 //! ```
 //! Both, and in H both terms, are brought to unit diagonal first, where that is more than rounding. A mass that is singular by itself is
@@ -12,6 +13,7 @@ use faer::{Mat, MatRef};
 use super::foreign::{Foreign, Pair};
 use crate::certification::listing::first_of;
 use crate::dense;
+use crate::eigen::lowest_ratio_of;
 use crate::error::Result;
 use crate::partition::Partition;
 use crate::sparse::diagonal;
@@ -45,9 +47,11 @@ pub(super) fn check(partition: &Partition, foreign: &Foreign) -> Result<Check> {
 }
 
 fn of_columns(partition: &Partition, foreign: &Foreign) -> Mat<f64> {
-    let stiffness = diagonal(&partition.stiffness);
+    let [stiffness, mass] = [&partition.stiffness, &partition.mass].map(diagonal);
+    let of_mass = lowest_ratio_of(stiffness.iter().copied().zip(mass.iter().copied())).unwrap_or(1.0);
+    let weight = |i: usize| if stiffness[i] > 0.0 { stiffness[i] } else { of_mass * mass[i].max(0.0) };
     let basis = &foreign.basis;
-    let weighted = Mat::from_fn(basis.nrows(), basis.ncols(), |i, j| stiffness[i].max(0.0).sqrt() * basis[(i, j)]);
+    let weighted = Mat::from_fn(basis.nrows(), basis.ncols(), |i, j| weight(i).sqrt() * basis[(i, j)]);
     dense::gram(weighted.as_ref(), weighted.as_ref())
 }
 

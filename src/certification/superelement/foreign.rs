@@ -178,6 +178,16 @@ impl Pair {
         matrix[(i, i)].max(CANCELLED * self.terms[i]).sqrt()
     }
 
+    /// What the matrix is to the one that it has to be: the median over diagonal entries that are more than rounding, and one where there
+    /// are none, or where half of them are zero.
+    pub(super) fn usual_factor(&self) -> f64 {
+        let diagonals = (0..self.given.nrows()).map(|i| (self.given[(i, i)], self.projected[(i, i)], self.terms[i]));
+        let sound = diagonals.filter(|(_, projected, terms)| *projected > CANCELLED * terms);
+        let mut factors: Vec<f64> = sound.map(|(given, projected, _)| given / projected).collect();
+        factors.sort_by(f64::total_cmp);
+        factors.get(factors.len() / 2).copied().filter(|factor| *factor > 0.0 && factor.is_finite()).unwrap_or(1.0)
+    }
+
     /// What was read, at unit diagonal where that is more than rounding.
     pub(super) fn at_unit_diagonal(&self) -> Mat<f64> {
         let given = self.given.as_ref();

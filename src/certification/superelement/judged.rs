@@ -8,6 +8,7 @@ use super::foreign::Foreign;
 use super::interface::Interface;
 use super::left_out::LeftOut;
 use super::pairing::paired;
+use super::zero_motions;
 use crate::certification::band::Band;
 use crate::certification::certified::lowest_elastic;
 use crate::dense;
@@ -58,7 +59,9 @@ impl ReducedCertification {
 
     /// The job of a comparison at the interface, where there is one and the superelement is one of this model.
     pub fn job_of_interface(&self, job: &Job, interfaces: Vec<InterfaceJob>) -> Option<Job> {
-        let scene = SceneJob { band_hz: Some(self.free.band_hz), ..SceneJob::default() };
+        // A component without elastic modes has no band of its own.
+        let band_hz = Some(self.free.band_hz).filter(|[_, to_hz]| *to_hz > 0.0);
+        let scene = SceneJob { band_hz, ..SceneJob::default() };
         let reduction = ReductionJob::new(Method::Guyan, ModeSelection::Count { count: 0 });
         let is_comparable = !interfaces.is_empty() && self.free.frequencies.is_some();
         is_comparable.then(|| Job { interfaces, reduction, scene: Some(scene), ..job.clone() })
@@ -188,8 +191,7 @@ pub fn compared_free(
     let spectral = Spectral::if_definite(foreign.stiffness.given.as_ref(), foreign.mass.given.as_ref(), first)?;
     let of_digits = spectral.as_ref().map_or_else(Vec::new, |spectral| changes(foreign, spectral, top));
     let reduced = spectral.as_ref().map(Spectral::eigenvalues);
-    let is_free = |lambda: &&f64| **lambda < 0.5 * first;
-    let n_without_stiffness = reduced.as_ref().map_or(0, |reduced| reduced.iter().take_while(is_free).count());
+    let n_without_stiffness = zero_motions::count(foreign, first)?;
     let partners = match &spectral {
         Some(spectral) => partners(component.partition, foreign, (&modes, spectral), n_without_stiffness),
         None => vec![None; modes.count()],
@@ -228,7 +230,8 @@ fn partners(
     (modes, spectral): (&Modes, &Spectral),
     n_without_stiffness: usize,
 ) -> Vec<Option<usize>> {
-    let elastic = &spectral.eigenvalues()[n_without_stiffness..];
+    let eigenvalues = spectral.eigenvalues();
+    let elastic = eigenvalues.get(n_without_stiffness..).unwrap_or_default();
     let of_mode: Vec<Vec<f64>> =
         (0..elastic.len()).map(|mode| spectral.eigenvector(n_without_stiffness + mode)).collect();
     let q = Mat::from_fn(foreign.n_reduced(), elastic.len(), |i, j| of_mode[j][i]);

@@ -21,6 +21,7 @@ mod named_rows;
 mod pairing;
 mod preserved;
 mod turned_nodes;
+mod zero_motions;
 
 pub use files::{ForeignSuperelement, ReducedFiles, ReducedMatrix};
 pub use foreign::Foreign;

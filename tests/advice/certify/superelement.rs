@@ -151,6 +151,60 @@ fn matrices_of_another_basis_are_named_by_their_coordinates() {
     assert!(found.iter().any(|(id, _)| id == "M-25"), "{found:?}");
 }
 
+/// K̂ is right, and M̂ is some times too large or lacks the coupling of static columns and amplitudes.
+#[test]
+fn a_wrong_mass_takes_no_stiffness_away() {
+    let right = Foreign::craig_bampton(&steel_brick(), &interface(), 12);
+    let times = |factor: f64| Foreign { mass: &right.mass * faer::Scale(factor), ..right.clone() };
+    let mut uncoupled = right.clone();
+    for (i, j) in (0..12).flat_map(|i| (12..24).map(move |j| (i, j))) {
+        uncoupled.mass[(i, j)] = 0.0;
+        uncoupled.mass[(j, i)] = 0.0;
+    }
+    for wrong in [times(4.0), times(100.0), times(1e6), times(1e-6), uncoupled] {
+        let found = document(&steel_brick(), &wrong, ExitCode::CheckFailed);
+        assert_eq!(found["n_without_stiffness"], 6, "{found}");
+        let failed = failed(&found);
+        assert!(failed.iter().all(|(id, _)| id != "M-12"), "{failed:?}");
+        let said = |id: &str, words: &str| failed.iter().any(|(found, worst)| found == id && worst.contains(words));
+        assert!(said("C-07", "times as large"), "{failed:?}");
+        assert!(!said("C-08", "which it has not"), "{failed:?}");
+    }
+    let found = failed(&document(&steel_brick(), &times(100.0), ExitCode::CheckFailed));
+    let words = "in the superelement, by its mass, which is not that of the basis";
+    assert!(found.iter().any(|(id, worst)| id == "C-08" && worst.ends_with(words)), "{found:?}");
+    // All of K̂ too soft leaves as many motions free.
+    let soft = Foreign { stiffness: &right.stiffness * faer::Scale(1e-4), ..right };
+    let found = document(&steel_brick(), &soft, ExitCode::CheckFailed);
+    assert_eq!(found["n_without_stiffness"], 6, "{found}");
+    assert!(found["checks"].to_string().contains("by its stiffness, which is not that of the basis"), "{found}");
+}
+
+/// A rigid body has no stiffness and no elastic modes, and a superelement of it neither.
+#[test]
+fn one_of_a_stiffness_of_zeros_is_certified() {
+    let place = Place::new();
+    place.write("K.mtx", b"%%MatrixMarket matrix coordinate real symmetric\n6 6 1\n1 1 0.\n");
+    let mass = "%%MatrixMarket matrix coordinate real symmetric\n6 6 8\n1 1 2.\n2 2 2.\n3 3 2.\n4 4 .1\n5 5 .2\n6 6 .25\n5 3 -.02\n6 2 .02\n";
+    place.write("M.mtx", mass.as_bytes());
+    place.write("nodes.csv", b"node,x,y,z\n1,0.,0.,0.\n");
+    place.write("dofs.txt", b"1.1\n1.2\n1.3\n1.4\n1.5\n1.6\n");
+    place.write("khat.mtx", &place.bytes("K.mtx"));
+    place.write("mhat.mtx", mass.as_bytes());
+    let unit = |j: usize| (0..6).map(|i| f64::from(u8::from(i == j))).collect();
+    place.write("psi.mtx", array(&(0..6).map(unit).collect::<Vec<Vec<f64>>>()).as_bytes());
+    for band in ["", "--band 0,100"] {
+        let ended = certify(&place, &format!("--json {band}")).expect(ExitCode::Done);
+        let found: Value = serde_json::from_str(&ended.out).expect("JSON");
+        assert_eq!((&found["n_rigid"], &found["n_without_stiffness"]), (&6.into(), &6.into()), "{found}");
+        assert!(failed(&found).is_empty() && !ended.out.contains("NaN"), "{found}");
+    }
+    place.write("mhat.mtx", mass.replace("4 4 .1", "4 4 .2").as_bytes());
+    let ended = certify(&place, "--json").expect(ExitCode::CheckFailed);
+    let found = failed(&serde_json::from_str(&ended.out).expect("JSON"));
+    assert!(found.iter().all(|(id, _)| ["C-07", "M-16"].contains(&id.as_str())) && found.len() == 2, "{found:?}");
+}
+
 /// K̂ and M̂ are those of the basis, and the basis is a poor one: its static columns do not solve the full model.
 #[test]
 fn a_basis_without_static_answers_fails_in_statics() {
