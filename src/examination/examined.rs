@@ -10,7 +10,7 @@ use super::interfaces::{self, Candidate};
 use super::patches::{self, SurfacePatch};
 use super::retreat::{Retreat, retreat};
 use super::sizes::{self, Sizes};
-use super::units::{self, UnitGuess, Units};
+use super::units::{self, Units};
 use crate::dofs::Nodes;
 use crate::error::{Error, ErrorClass};
 use crate::input::{Face, InputFacts};
@@ -116,7 +116,12 @@ impl Examination {
         self.n_massless = Some(masses.iter().filter(|mass| **mass == 0.0).count());
         self.extents = sizes::extents(partition);
         self.units = match Sizes::of(partition) {
-            Some(sizes) => units::of(sizes),
+            Some(sizes) => match units::of(sizes) {
+                Units::Guessed(guesses) if guesses.is_empty() && sizes::has_rows_without_place(partition) => {
+                    Units::NoPlace
+                }
+                units => units,
+            },
             None if self.extents.is_some() => Units::NoSpeed,
             None if self.given_nodes.is_some() => Units::LeftOut,
             None => Units::Untold,
@@ -159,7 +164,7 @@ impl Examination {
         findings.extend(apart);
         let unit = units.only().map_or("", |guess| guess.stiffness);
         findings.extend(grounded.as_ref().and_then(|grounded| held(grounded, body.as_ref(), unit)));
-        findings.extend(of_units(&units));
+        findings.extend(units.finding());
         if let Some(body) = &body {
             findings.extend(of_body(body));
             findings.extend(map_unseen(&job).filter(|_| extents.is_none() && given_nodes.is_none()));
@@ -271,34 +276,6 @@ fn held(grounded: &Grounded, body: Option<&ReportBody>, unit: &str) -> Option<Fi
         "DDELE, ALL, ALL             ! Ansys, before the solution that is exported".to_owned(),
     ];
     Some(Finding { severity, code: None, what, remedy, lines, went_on: None })
-}
-
-/// Units that may not go together, and frequencies that are in kHz.
-fn of_units(units: &Units) -> Option<Finding> {
-    let remark = |what: String, remedy: String, lines: Vec<String>| Finding {
-        severity: Severity::Remark,
-        code: None,
-        what,
-        remedy,
-        lines,
-        went_on: None,
-    };
-    match units.guesses() {
-        // No sound system explains the model as well.
-        [UnitGuess { system, is_mixed: true, frequencies, mend, .. }, ..] => Some(remark(
-            format!(
-                "density and speed of sound fit no system of units, but a mixture: {system}; frequencies come out {frequencies} then"
-            ),
-            format!("compare the mass of the body with what the component weighs; if that is {mend}"),
-            Vec::new(),
-        )),
-        [UnitGuess { system, label: Some(label), frequencies, .. }, ..] if frequencies.contains("kHz") => Some(remark(
-            format!("the units look like {system}: frequencies are {frequencies}"),
-            "give --up-to-hz and bands of the job in kHz, or write the matrices with time in seconds".to_owned(),
-            vec![format!("units = \"{label}\"          # [model] of the job")],
-        )),
-        _ => None,
-    }
 }
 
 /// Warnings and failed checks of the reduction to the lowest modes.

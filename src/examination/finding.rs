@@ -72,10 +72,13 @@ impl Finding {
         Self { severity: Severity::Warning, code: Some(warning.code), what, remedy, lines, went_on: None }
     }
 
-    /// A remark of a reader or of the model: where it asks for something, that stands behind its last semicolon.
+    /// A remark of a reader or of the model: where it asks for something, that stands behind its last semicolon and begins with one of a few
+    /// words.
     pub(super) fn of_note(note: &str) -> Self {
         const NOTHING: &str = "nothing, if that is what is meant";
-        let (what, remedy) = note.rsplit_once("; ").unwrap_or((note, NOTHING));
+        const ASKING: [&str; 4] = ["if ", "check ", "give ", "where Abaqus "];
+        let asking = note.rsplit_once("; ").filter(|(_, rest)| ASKING.iter().any(|word| rest.starts_with(word)));
+        let (what, remedy) = asking.unwrap_or((note, NOTHING));
         let [what, remedy] = [what, remedy].map(str::to_owned);
         Self { severity: Severity::Remark, code: None, what, remedy, lines: Vec::new(), went_on: None }
     }

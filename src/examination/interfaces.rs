@@ -4,10 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use serde::Serialize;
 
+use super::fitted_surface::{self, Surface};
 use crate::dense;
 use crate::dofs::Nodes;
 use crate::number::counted;
-use crate::partition::{Fit, Partition, hole, sphere};
+use crate::partition::Partition;
 
 /// Dofs of an interface whose nodes keep their own: more make a superelement large.
 const MOST_DIRECT: usize = 100;
@@ -41,18 +42,6 @@ impl Candidate {
     pub(super) fn holds_all(&self) -> bool {
         !self.couplings.is_empty() && self.remark.is_none()
     }
-}
-
-/// A cylinder or a sphere through the nodes of a group.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Surface {
-    /// Which of them, as a job names it.
-    pub origin: &'static str,
-    /// Where the interface node would be.
-    pub at: [f64; 3],
-    /// Radius, residual and axis.
-    #[serde(flatten)]
-    pub fit: Fit,
 }
 
 /// What the groups of a mesh are good for.
@@ -114,7 +103,7 @@ fn candidate(partition: &Partition, group: String, (labels, of_model): (Vec<i64>
     if rank == 6 && n_nodes > 1 {
         couplings.extend(["rigid", "average"]);
     }
-    let surface = (rank == 6).then(|| surface(&positions(partition, dofs))).flatten();
+    let surface = (rank == 6).then(|| fitted_surface::of(&positions(partition, dofs))).flatten();
     let remark = match (rank, n_nodes) {
         (6, _) => None,
         (_, 1) => Some("one node without rotations: it holds no rotation".to_owned()),
@@ -135,17 +124,6 @@ fn positions(partition: &Partition, dofs: &[usize]) -> Vec<[f64; 3]> {
         }
     }
     found.into_iter().map(|(_, position)| position).collect()
-}
-
-/// The cylinder or the sphere that some nodes lie on; four corners lie on both, and say nothing.
-fn surface(points: &[[f64; 3]]) -> Option<Surface> {
-    /// Nodes that lie on a surface by chance: the corners of a box.
-    const BY_CHANCE: usize = 8;
-    if points.len() <= BY_CHANCE {
-        return None;
-    }
-    let as_hole = hole(points).ok().map(|(at, fit)| Surface { origin: "hole", at, fit });
-    as_hole.or_else(|| sphere(points).ok().map(|(at, fit)| Surface { origin: "sphere", at, fit }))
 }
 
 /// How many of the six unit motions some dofs tell apart.

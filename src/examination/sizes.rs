@@ -13,6 +13,8 @@ use crate::sparse::diagonal;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
     pub(super) mass: f64,
+    /// That of all nodes but the heaviest tenth, which point masses are among.
+    pub(super) light_mass: f64,
     pub(super) extents: [f64; 3],
     /// The typical distance of neighbours.
     pub(super) spacing: f64,
@@ -36,8 +38,10 @@ impl Sizes {
     pub(super) fn of(partition: &Partition) -> Option<Self> {
         let sites = partition.sites()?;
         let has_rotations = sites.iter().flatten().any(|site| site.direction.is_rotation());
+        let mass = total_mass(partition)?;
         Some(Self {
-            mass: total_mass(partition)?,
+            mass,
+            light_mass: mass * light_share(partition, &sites)?,
             extents: extents(partition)?,
             spacing: spacing(partition)?,
             ratio: stiffest_ratio(partition, &sites)?,
@@ -46,20 +50,42 @@ impl Sizes {
     }
 }
 
+/// Whether some rows are of no node.
+pub(super) fn has_rows_without_place(partition: &Partition) -> bool {
+    partition.sites().is_some_and(|sites| sites.iter().any(Option::is_none))
+}
+
 /// The median over nodes of the largest K_ii / M_ii of their translations: members along it and not across it make it, where bending is
 /// softer by orders.
 fn stiffest_ratio(partition: &Partition, sites: &[Option<Site>]) -> Option<f64> {
     let (stiffness, mass) = (diagonal(&partition.stiffness), diagonal(&partition.mass));
+    let ratios = largest_of_nodes(partition, sites, |row| (mass[row] > 0.0).then(|| stiffness[row] / mass[row]));
+    Some(ratios.get(ratios.len() / 2)? * partition.scaling.eigenvalue_unit())
+}
+
+/// The share of the mass that is not at the heaviest tenth of the nodes, by M_ii of their translations. Where no node is a point mass it is
+/// a third and more, which matters to no guess of a density.
+fn light_share(partition: &Partition, sites: &[Option<Site>]) -> Option<f64> {
+    let mass = diagonal(&partition.mass);
+    let masses = largest_of_nodes(partition, sites, |row| Some(mass[row]));
+    let (light, _) = masses.split_at(masses.len() - masses.len().div_ceil(10));
+    let [light, all] = [light, &masses[..]].map(|masses| masses.iter().sum::<f64>());
+    (all > 0.0).then(|| light / all)
+}
+
+/// The largest value of the translations of each node that have one, ascending.
+fn largest_of_nodes(partition: &Partition, sites: &[Option<Site>], value: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
     let mut of_node: BTreeMap<u32, f64> = BTreeMap::new();
     for (row, dof) in partition.dofs.iter().enumerate() {
-        if sites[row].is_some_and(|site| !site.direction.is_rotation()) && mass[row] > 0.0 {
+        let is_translation = sites[row].is_some_and(|site| !site.direction.is_rotation());
+        if let Some(value) = value(row).filter(|_| is_translation) {
             let largest = of_node.entry(dof.node).or_default();
-            *largest = largest.max(stiffness[row] / mass[row]);
+            *largest = largest.max(value);
         }
     }
-    let mut ratios: Vec<f64> = of_node.into_values().collect();
-    ratios.sort_by(f64::total_cmp);
-    Some(ratios.get(ratios.len() / 2)? * partition.scaling.eigenvalue_unit())
+    let mut values: Vec<f64> = of_node.into_values().collect();
+    values.sort_by(f64::total_cmp);
+    values
 }
 
 /// Typical distance of coupled nodes; none without coordinates.

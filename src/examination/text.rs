@@ -2,7 +2,7 @@
 
 use super::examined::Examined;
 use super::finding::{Finding, Severity};
-use super::interfaces::Surface;
+use super::fitted_surface::Surface;
 use super::units::{UnitGuess, Units};
 use crate::input::MatrixFacts;
 use crate::number::{counted, quantity, scientific};
@@ -113,6 +113,10 @@ pub(super) fn units(units: &Units) -> String {
         }
         Units::NoVolume => {
             return "not told: the nodes lie in a plane or on a line, so that the density is unknown".to_owned();
+        }
+        Units::NoPlace => {
+            return "not told: rows without a place have part of the mass, as amplitudes of a superelement do"
+                .to_owned();
         }
         Units::Guessed(guesses) => guesses,
     };

@@ -61,6 +61,8 @@ pub enum Units {
     NoSpeed,
     /// The nodes lie in a plane or on a line, so that nothing is known of the density.
     NoVolume,
+    /// Rows without a place have part of the mass, as amplitudes of a superelement do, and no system fits what the others have.
+    NoPlace,
     /// Density and speed of sound are those of these systems, the likeliest first and mixtures last.
     Guessed(Vec<UnitGuess>),
 }
@@ -70,7 +72,7 @@ impl Units {
     pub fn guesses(&self) -> &[UnitGuess] {
         match self {
             Self::Guessed(guesses) => guesses,
-            Self::Untold | Self::LeftOut | Self::NoSpeed | Self::NoVolume => &[],
+            Self::Untold | Self::LeftOut | Self::NoSpeed | Self::NoVolume | Self::NoPlace => &[],
         }
     }
 
@@ -138,6 +140,16 @@ static SYSTEMS: [System; 9] = [
     ),
 ];
 
+/// Nodes in another unit of length than the matrices. Where a sound system fits as well, that is the likelier one, and this is not listed.
+static NODES_IN_MM: System = mixed(
+    ["stiffness in N/m, mass in kg, nodes in mm", "N/m"],
+    [
+        "right, and inertia and the motion of rigid patches wrong,",
+        "in kg, divide the coordinates by 1000, so that they are in m",
+    ],
+    [1e-3, 1.0, 1.0],
+);
+
 /// How a system explains a model.
 struct Fit<'a> {
     guess: &'a UnitGuess,
@@ -159,8 +171,17 @@ impl Fit<'_> {
     }
 }
 
-/// The systems that a model may be in. What the density says is an interval, so that the speed orders them.
+/// The systems that a model may be in. Where none fits its whole mass, point masses may have most of that, and the rest of it tells.
 pub(super) fn of(sizes: Sizes) -> Units {
+    let is_empty = |units: &Units| matches!(units, Units::Guessed(guesses) if guesses.is_empty());
+    let tried = [(&SYSTEMS[..], sizes.mass), (&SYSTEMS, sizes.light_mass)];
+    let mut found = tried.into_iter().map(|(systems, mass)| among(systems, sizes, mass));
+    let found = found.find(|units| !is_empty(units));
+    found.unwrap_or_else(|| among(std::slice::from_ref(&NODES_IN_MM), sizes, sizes.mass))
+}
+
+/// Those of some systems that a model of some mass may be in. What the density says is an interval, so that the speed orders them.
+fn among(systems: &'static [System], sizes: Sizes, mass: f64) -> Units {
     let longest = sizes.extents.iter().fold(0.0f64, |max, extent| max.max(*extent));
     let shortest = sizes.extents.iter().fold(f64::INFINITY, |min, extent| min.min(*extent));
     let (least, flat) = match sizes.nodes {
@@ -171,13 +192,13 @@ pub(super) fn of(sizes: Sizes) -> Units {
         return Units::NoVolume;
     }
     let volume: f64 = sizes.extents.iter().product();
-    let (density, speed) = (sizes.mass / volume, sizes.spacing * (sizes.ratio / 3.0).sqrt());
+    let (density, speed) = (mass / volume, sizes.spacing * (sizes.ratio / 3.0).sqrt());
     let fit = |system: &'static System| Fit {
         guess: &system.guess,
         filled: density / (DENSITY * system.length.powi(3) / system.mass),
         speed: speed / (SPEED * system.time / system.length),
     };
-    let mut fits: Vec<Fit<'_>> = SYSTEMS.iter().map(fit).collect();
+    let mut fits: Vec<Fit<'_>> = systems.iter().map(fit).collect();
     fits.sort_by(|a, b| a.speed.ln().abs().total_cmp(&b.speed.ln().abs()));
     let sound = || fits.iter().filter(|fit| !fit.guess.is_mixed);
     let mut found: Vec<&UnitGuess> = sound().filter(|fit| fit.is_stiff(least)).map(|fit| fit.guess).collect();
@@ -207,6 +228,7 @@ mod tests {
         let (length, mass, time) = (system.length, system.mass, system.time);
         Sizes {
             mass: filled * density * 0.12 / mass,
+            light_mass: 0.7 * filled * density * 0.12 / mass,
             extents: [1.0, 0.4, 0.3].map(|extent| extent / length),
             spacing: 0.05 / length,
             ratio: 3.0 * young / density * (time / 0.05).powi(2),
@@ -244,8 +266,24 @@ mod tests {
     #[test]
     fn nothing_is_guessed_of_what_is_in_no_system() {
         let steel = component((2.1e11, 7850.0), 0.5, NodeKind::Translations, &SYSTEMS[0]);
-        assert_eq!(of(Sizes { mass: 1e9 * steel.mass, ..steel }), Units::Guessed(Vec::new()));
+        assert_eq!(
+            of(Sizes { mass: 1e9 * steel.mass, light_mass: 1e9 * steel.mass, ..steel }),
+            Units::Guessed(Vec::new())
+        );
         assert_eq!(of(Sizes { ratio: 1e9 * steel.ratio, ..steel }), Units::Guessed(Vec::new()));
+    }
+
+    #[test]
+    fn nodes_in_another_unit_are_named_where_nothing_else_fits() {
+        let found = of(component((2.1e11, 7850.0), 0.5, NodeKind::Translations, &NODES_IN_MM));
+        assert_eq!(found, Units::Guessed(vec![NODES_IN_MM.guess.clone()]));
+    }
+
+    /// A point mass a thousand times as heavy as the rest says nothing of the density.
+    #[test]
+    fn point_masses_are_no_density() {
+        let steel = component((2.1e11, 7850.0), 0.5, NodeKind::Translations, &SYSTEMS[1]);
+        assert_eq!(of(Sizes { mass: 1e3 * steel.mass, ..steel }), of(steel));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel_models::transform::{grounded, join, rounded, scaled, supported};
+use supel_models::transform::{carrying, grounded, join, rounded, scaled, supported};
 use supel_models::{Inertia, Material, Model, Section, brick, frame};
 use supel_testing::place::{Ended, Place, steel_brick, supel};
 use supel_testing::schema::{assert_follows, validator};
@@ -434,6 +434,57 @@ fn units_that_do_not_go_together() {
     let found = examined(&Place::with(&scaled(&sound, 1e-3, 1e3)), ALL, ExitCode::Done);
     let told = finding(&found, "");
     assert!(told.contains("kHz") && told.contains("units = \\\"mm-kg-ms\\\""), "{told}");
+}
+
+/// Nodes in millimetres next to N/m and kg: frequencies are right, and all that coordinates tell is wrong.
+#[test]
+fn nodes_in_another_unit_than_the_matrices_are_a_finding() {
+    let in_metres = Material::STEEL_SI;
+    let sound = brick([4, 2, 2], [0.1, 0.031, 0.023], &in_metres);
+    let place = Place::with(&sound);
+    let large = |factor: f64| brick([4, 2, 2], [0.1, 0.031, 0.023].map(|length| factor * length), &in_metres);
+    for (factor, words) in [
+        (1e3, ["nodes in mm", "divide the coordinates by 1000"]),
+        (1e6, ["no system of units that is known", "bring nodes and matrices into one system"]),
+    ] {
+        place.write("nodes.csv", &Place::with(&large(factor)).bytes("nodes.csv"));
+        let found = examined(&place, ALL, ExitCode::Done);
+        let told = finding(&found, "");
+        assert!(words.iter().all(|words| told.contains(words)), "{told}");
+        assert_eq!(findings(&found).len(), 1, "{found}");
+    }
+    let found = examined(&Place::with(&sound), ALL, ExitCode::Done);
+    assert_eq!((&found["units"][0]["label"], findings(&found).len()), (&"m-kg-s".into(), 0), "{found}");
+}
+
+/// A point mass that is a thousand times as heavy as what carries it says nothing of the density.
+#[test]
+fn a_point_mass_leaves_the_units_as_they_are() {
+    let in_millimetres = Material { young: 210_000.0, poisson: 0.3, density: 7.85e-9 };
+    let model = brick([4, 2, 2], [100.0, 31.0, 23.0], &in_millimetres);
+    let weight = model.total_mass(0);
+    let found = examined(&Place::with(&carrying(&model, &[23], 1e3 * weight)), ALL, ExitCode::Done);
+    assert_eq!(found["units"][0]["label"], "mm-t-s", "{found}");
+    assert!(!found.to_string().contains("no system"), "{found}");
+}
+
+/// What a remark says is no remedy, unless it asks for something.
+#[test]
+fn remarks_ask_for_what_they_ask_for() {
+    let place = Place::with(&steel_brick());
+    let text = String::from_utf8(place.bytes("K.mtx")).expect("text");
+    let triplets: Vec<&str> = text.lines().filter(|line| !line.starts_with('%')).skip(1).collect();
+    place.write("K.mtx", triplets.join("\n").as_bytes());
+    let found = examined(&place, ALL, ExitCode::Done);
+    let told: Vec<(&str, &str)> = found["findings"]
+        .as_array()
+        .expect("findings")
+        .iter()
+        .filter_map(|finding| finding["what"].as_str().zip(finding["remedy"].as_str()))
+        .collect();
+    let of = |words: &str| told.iter().find(|(what, _)| what.contains(words)).unwrap_or_else(|| panic!("{told:?}"));
+    assert!(of("no size line; the largest index makes it a matrix of").1.starts_with("nothing"), "{told:?}");
+    assert_eq!(of("the last line has no line end").1, "check that the file is complete", "{told:?}");
 }
 
 /// The lower triangle of a matrix is complete, or the upper one, or neither; of a matrix that gives each pair once, both are.

@@ -290,6 +290,25 @@ fn units_are_written_where_nothing_else_fits() {
     assert!(text.contains("# units = the label of your system"), "{text}");
 }
 
+/// Two flat ends have a sphere near them, four edges a cylinder through them, and a band around a circle has one within it.
+#[test]
+fn flat_faces_and_wide_bands_lie_on_nothing_round() {
+    let mut block = brick([3, 2, 6], [0.08, 0.05, 0.4], &Material::STEEL_SI);
+    block.add_group("ENDS", |x| x[2] == 0.0 || x[2] == 0.4);
+    let mut bar = brick([8, 2, 2], [0.4, 0.1, 0.1], &Material::STEEL_SI);
+    bar.add_group("EDGES", |x| [0.0, 0.1].contains(&x[1]) && [0.0, 0.1].contains(&x[2]));
+    let mut plate = brick([20, 20, 1], [1.0, 1.0, 0.1], &Material::STEEL_SI);
+    plate.add_group("BAND", |x| ((x[0] - 0.5).hypot(x[1] - 0.5) - 0.5).abs() < 0.02);
+    for model in [block, bar, plate] {
+        let place = Place::with(&model);
+        place.write("mesh.inp", deck(&model).as_bytes());
+        let (job, text) = proposed(&place, "K.mtx M.mtx --dofs dofs.txt --nodes mesh.inp");
+        let group = model.groups.keys().next().expect("a group");
+        let interface = job.interfaces.iter().find(|interface| interface.name == *group).expect(group);
+        assert_eq!(interface.origin, supel::job::Origin::Centroid, "{text}");
+    }
+}
+
 /// Groups become interfaces: a bore with its axis; a group of the whole model does not.
 #[cfg(feature = "hdf5")]
 #[test]
