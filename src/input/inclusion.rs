@@ -31,11 +31,12 @@ pub(super) fn included_file(
     }
 }
 
-/// The file of a name, where it lies in the deck's folder or below.
+/// The file of a name, where it lies in the deck's folder or below. Decks that were written for Windows part folders by a backslash.
 fn inside_folder(deck: &Path, reference: &str) -> Result<PathBuf, &'static str> {
-    let name = Path::new(reference);
+    let reference = reference.replace('\\', "/");
+    let name = Path::new(&reference);
     let is_inside = name.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    if !is_inside || reference.contains(['\\', ':']) {
+    if !is_inside || reference.contains(':') {
         return Err("which is outside its folder");
     }
     let folders = [Some(linked::named_folder(deck).to_owned()), linked::own_folder(deck)];

@@ -43,7 +43,14 @@ pub enum InputNote {
         /// Pairs of a row and a column that stood in one triangle only, whichever.
         n_once: usize,
     },
-    /// Rows without stiffness and mass were dropped on request.
+    /// A matrix has rows in an order of its own, so that a dof map orders nothing.
+    MapUnused {
+        /// The file of the dof map.
+        path: PathBuf,
+        /// The file of the matrix.
+        matrix: PathBuf,
+    },
+    /// Rows without stiffness and mass were left out.
     EmptyRowsDropped {
         /// How many.
         count: usize,
@@ -225,8 +232,14 @@ impl fmt::Display for InputNote {
                 let dof = dof.map(|dof| format!(", {dof}")).unwrap_or_default();
                 let rows =
                     counted(*count, "row without stiffness and mass was", "rows without stiffness and mass were");
-                write!(f, "{rows} dropped as asked; the first is row {row}{dof}")
+                write!(f, "{rows} left out: the first is row {row}{dof}")
             }
+            Self::MapUnused { path, matrix } => write!(
+                f,
+                "{}: {} names none of its rows, which stay in the order of the matrix",
+                file_name(path),
+                file_name(matrix)
+            ),
             Self::LastRowEmpty { path, n } => {
                 write!(
                     f,

@@ -59,7 +59,7 @@ impl Numbers {
     fn in_words(self) -> &'static str {
         match self {
             Self::Whole => "whole numbers",
-            Self::Real => "real numbers of float64, float32 or float16",
+            Self::Real => "real numbers of float64, float32 or float16, or whole ones",
         }
     }
 }

@@ -17,6 +17,17 @@ pub(super) enum Endian {
     Big,
 }
 
+impl Endian {
+    /// The other one.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn other(self) -> Self {
+        match self {
+            Self::Little => Self::Big,
+            Self::Big => Self::Little,
+        }
+    }
+}
+
 /// How a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {

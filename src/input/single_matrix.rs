@@ -9,7 +9,7 @@ use super::member::split_member;
 use super::model_files::read_matrix;
 use super::{Allowance, InputNote, MatrixInput, MatrixRole, common_rows, formats, superelement_file};
 use crate::dofs::DofMap;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::Layout;
 
 /// What is asked of the file of one matrix.
@@ -19,7 +19,7 @@ pub struct SingleMatrix {
     pub file: PathBuf,
     /// The format, where the content leaves several.
     pub layout: Option<Layout>,
-    /// A dof map: the rows of a matrix that names its own are put in its order.
+    /// A dof map: the rows of a matrix that names its own are put in its order, and it has as many as one that names none.
     pub dofs: Option<PathBuf>,
 }
 
@@ -72,6 +72,13 @@ impl SingleMatrix {
             (None, None) => RowLabels::default(),
         };
         let mut notes = Vec::new();
+        if let (Some(path), Some(map), None) = (&self.dofs, &map, &read.labels) {
+            let (found, n) = (map.len(), read.input.matrix.rows());
+            if found != n {
+                return Err(Error::DofCount { path: path.clone(), found, n });
+            }
+            notes.push(InputNote::MapUnused { path: path.clone(), matrix: source.file.clone() });
+        }
         let (input, _) = common_rows::take_notes(labels.placed(read)?, &mut notes);
         let mut dofs = map.or_else(|| labels.dof_map());
         if dofs.is_none() && layout == Layout::Superelement {

@@ -32,6 +32,25 @@ fn a_map_with_scalar_points_fits_the_matrix_that_lacks_some() {
     assert!(refused.err.contains("row 3") && refused.err.contains("row 2 too"), "{}", refused.err);
 }
 
+/// The rows of a matrix that names none stay where they are, and a map of another number of rows is not theirs.
+#[test]
+fn a_map_orders_no_matrix_that_names_no_rows() {
+    let place = Place::new();
+    place.write("k.mtx", b"%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 2.\n2 2 3.\n");
+    place.write("rows.csv", b"node,dof\n2,ux\n1,ux\n");
+    place.write("long.csv", b"node,dof\n1,ux\n2,ux\n3,ux\n");
+    let convert =
+        |map: &str| supel(&["convert", &place.text("k.mtx"), &place.text("k.npz"), "--dofs", &place.text(map)]);
+    let told = convert("rows.csv").expect(ExitCode::Done).out;
+    assert!(
+        told.contains("note: rows.csv: k.mtx names none of its rows, which stay in the order of the matrix"),
+        "{told}"
+    );
+    let refused = convert("long.csv");
+    assert_eq!(refused.code, ExitCode::InputData, "{}", refused.err);
+    assert!(refused.err.contains("E-MAP-COUNT") && refused.err.contains("3 rows"), "{}", refused.err);
+}
+
 /// What Abaqus numbers below zero and beyond six has labels too.
 #[test]
 fn dofs_beyond_six_and_nodes_below_zero_are_told_apart() {

@@ -29,6 +29,7 @@ mod nastran;
 mod nastran_records;
 mod nodes;
 mod numbers;
+mod other_types;
 mod patch_cells;
 mod search;
 mod sparse;

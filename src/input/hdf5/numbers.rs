@@ -1,10 +1,16 @@
 //! Numbers of a dataset or attribute, converted here and not by the library.
 //!
 //! Its conversions trust the bit layout that a file states for a type, and a damaged one makes them write past their
-//! buffers. So values are read only where the type is exactly one of this machine's, and widened afterwards.
+//! buffers. So values are read only where the type is exactly one of this machine's, or of the few others that are known bit by bit, and
+//! widened afterwards.
+
+use std::io::Cursor;
 
 use hdf5_metno::types::{FixedAscii, FloatSize, IntSize, TypeDescriptor};
 use hdf5_metno::{Container, H5Type};
+
+use super::other_types;
+use crate::input::raw_numbers::{self, Endian, Failure, Kind};
 
 /// Decimal digits of a 32-bit float.
 const DIGITS_F32: u32 = 7;
@@ -28,6 +34,10 @@ pub(super) struct Reals {
 
 /// All values as real numbers, in storage order.
 pub(super) fn reals(container: &Container) -> Result<Reals, Refusal> {
+    if let Some(stored) = of_other_type(container)? {
+        let (values, digits) = (unlike(container, stored, raw_numbers::reals)?, stored.0.digits().min(DIGITS_F64));
+        return Ok(Reals { values, digits });
+    }
     let (values, digits) = match descriptor(container)? {
         TypeDescriptor::Float(FloatSize::U8) => (read::<f64>(container)?, DIGITS_F64),
         TypeDescriptor::Float(FloatSize::U4) => (widened::<f32, f64>(container)?, DIGITS_F32),
@@ -51,6 +61,9 @@ fn exact(integers: &[i64]) -> Result<Vec<f64>, Refusal> {
 
 /// All values as whole numbers, in storage order.
 pub(super) fn integers(container: &Container) -> Result<Vec<i64>, Refusal> {
+    if let Some(stored) = of_other_type(container)?.filter(|(kind, _)| kind.is_whole()) {
+        return unlike(container, stored, raw_numbers::wholes);
+    }
     match descriptor(container)? {
         TypeDescriptor::Integer(IntSize::U1) => widened::<i8, i64>(container),
         TypeDescriptor::Integer(IntSize::U2) => widened::<i16, i64>(container),
@@ -68,6 +81,30 @@ pub(super) fn integers(container: &Container) -> Result<Vec<i64>, Refusal> {
         }
         other => Err(Refusal::Type(other.to_string())),
     }
+}
+
+/// How numbers are stored that are not as this machine's.
+fn of_other_type(container: &Container) -> Result<Option<(Kind, Endian)>, Refusal> {
+    Ok(other_types::stored_as(&container.dtype().map_err(Refusal::Library)?))
+}
+
+/// All values of another type, as `taken` makes them of their bytes.
+fn unlike<T>(
+    container: &Container,
+    stored: (Kind, Endian),
+    taken: impl FnOnce(&mut Cursor<Vec<u8>>, (Kind, Endian), u64) -> Result<Vec<T>, Failure>,
+) -> Result<Vec<T>, Refusal> {
+    let mut bytes = Cursor::new(other_types::bytes(container).map_err(Refusal::Library)?);
+    let (size, n_bytes) = (stored.0.size(), bytes.get_ref().len());
+    taken(&mut bytes, stored, (n_bytes / size) as u64).map_err(|failure| match failure {
+        Failure::Value(position) => {
+            let position = position as usize;
+            let number: String =
+                bytes.get_ref()[position * size..].iter().take(size).map(|byte| format!("{byte:02x}")).collect();
+            Refusal::Value(position, format!("bytes {number}"), "numbers that a double equals, whole ones below 2^63")
+        }
+        Failure::Cut(_) | Failure::Read(_) | Failure::Refused(_) => Refusal::Library("the values end too soon".into()),
+    })
 }
 
 /// All values of exactly this type.

@@ -57,6 +57,7 @@ fn decks_go_on_in_the_files_that_they_include() {
         "INCLUDE 'parts/second.bdf'\n",
         "INCLUDE 'parts/\n         second.bdf'\n",
         "INCLUDE parts/second.bdf\n",
+        "INCLUDE 'parts\\second.bdf'\n",
         "INCLUDE 'nested.bdf'\n",
     ] {
         let deck = folder.write("deck.bdf", format!("{HEAD}{include}ENDDATA\n"));
@@ -84,6 +85,9 @@ fn no_deck_includes_a_file_outside_its_folder_or_itself() {
     folder.write("second.bdf", SECOND);
     for (reference, words) in [
         ("../second.bdf", "outside its folder"),
+        ("..\\second.bdf", "outside its folder"),
+        ("\\second.bdf", "outside its folder"),
+        ("C:\\second.bdf", "outside its folder"),
         ("LOGICAL:second.bdf", "outside its folder"),
         ("absent.bdf", "which is not there"),
         ("deck.bdf", "by 16 files that include each other – expected files that do not include themselves"),

@@ -250,6 +250,8 @@ fn whole_numbers_of_arrays() {
         let matrix = supel::input::SingleMatrix { file: path, layout: None, dofs: None };
         matrix.read(&supel::input::Allowance::of(None)).map(|read| read.input.matrix.get(0, 0).copied())
     };
+    let error = read(npy("<c8", [0; 8])).expect_err("complex");
+    assert_says(&error, "E-MATRIX-UNREAD", &["<c8", "or whole ones"]);
     let large = (1_u64 << 63) + 4096;
     assert_eq!(read(npy("<u8", large.to_le_bytes())).expect("a double"), Some(9_223_372_036_854_779_904.0));
     assert_eq!(read(npy("<i8", i64::MIN.to_le_bytes())).expect("a double"), Some(-9_223_372_036_854_775_808.0));

@@ -197,7 +197,7 @@ fn i_11_rows_without_stiffness() {
     assert_refused(&empty, &ended, "E-EMPTY-ROWS", &["1 row has", "row 6 (node 6 ux)", "--drop-empty"]);
     let ended = empty.reduce(&empty.model_flags(), &format!("{rest} --drop-empty"));
     assert_done(&empty, &ended, &["W-INDEX-BASE", "W-INDEX-BASE"]);
-    assert!(notes_say(&empty, "1 row without stiffness and mass was dropped as asked; the first is row 6, node 6 ux"));
+    assert!(notes_say(&empty, "1 row without stiffness and mass was left out: the first is row 6, node 6 ux"));
     let whole = Place::with(&spring(5, Ends::Free));
     whole.reduce(&whole.model_flags(), rest);
     assert_eq!(empty.superelement("x.supel").tensors(), whole.superelement("x.supel").tensors());
