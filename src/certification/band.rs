@@ -26,9 +26,11 @@ pub(super) const CLUSTER: f64 = 1e-5;
 const BEYOND: f64 = 1.0 / 256.0;
 /// Share of the end of a band from which on shapes are near it.
 const NEAR_THE_END: f64 = 0.9;
-/// How many times as far as the forces of the shapes at its end that count is taken at least: their angle to what lies above is then
-/// below a hundredth, and the bar of their frequencies that times their δ.
-const FORCES_BEYOND: f64 = 25.0;
+/// How many times as far as the forces of the shapes at its end that count is taken: their angle to what lies above is then below half a
+/// hundredth, and the bar of their frequencies that times their δ.
+const FORCES_BEYOND: f64 = 250.0;
+/// How far it is taken at most, however poor they are: an eighth in frequency.
+const FARTHEST: f64 = 0.25;
 /// Steps by which a shift that lies on an eigenvalue is moved up, relative to it.
 const STEPS: [f64; 4] = [0.0, 1e-4, 1e-3, 1e-2];
 /// Steps in λ by which a shift leaves the cluster of zeros that rigid-body modes are: a quarter of a frequency each.
@@ -243,7 +245,7 @@ fn end_of(
     let is_near = |claim: &usize| claims.has_mass[*claim] && measured.lambda[*claim] >= NEAR_THE_END * top;
     let of_shapes = (0..claims.count()).filter(is_near).map(|claim| measured.lacking[claim]);
     let poorest = of_shapes.filter(|lacking| *lacking <= RECOGNISED).fold(0.0, f64::max);
-    count_near(problem, top * (1.0 + BEYOND.max(FORCES_BEYOND * poorest))).map(Some)
+    count_near(problem, top * (1.0 + (FORCES_BEYOND * poorest).clamp(BEYOND, FARTHEST))).map(Some)
 }
 
 /// The end of the band that a result has by itself: its highest frequency, or the highest of a shape that is a mode where there are too

@@ -249,15 +249,18 @@ impl Truth<'_> {
         of_below.min(distance(above)).min(1.0)
     }
 
-    /// How far ρ may be from an eigenvalue by its residual, relative to it: δ, or δ²/γ where its mode is known.
+    /// How far ρ may be from an eigenvalue by its residual, relative to it: δ/(1 − δ), or δ²/(γ − δ²) where its mode is known.
     fn residual_bar(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> f64 {
         let (lambda, lacking) = (measured.lambda[claim], measured.lacking[claim]);
         // Of λ − σ and not of λ.
         let of_distance = |share: f64| share * ((lambda - self.sigma) / lambda).abs();
         let of_any = if lacking < 1.0 { lacking / (1.0 - lacking) } else { f64::INFINITY };
         let of_residual = match cluster {
+            // With s the quotient, s_n its mode and β the neighbour on the other side, both less σ, Σ a_k² (s_k − s_n)(s_k − β)/s_k ≥ 0 over
+            // all modes, none of which lies between (Temple): |s − s_n| ≤ s δ²/γ with β above, and s δ²/(γ − δ²) with β below.
             Some(cluster) if lacking < self.gap(cluster, lambda) => {
-                of_any.min(lacking * lacking / self.gap(cluster, lambda))
+                let square = lacking * lacking;
+                of_any.min(square / (self.gap(cluster, lambda) - square))
             }
             _ => of_any,
         };

@@ -74,7 +74,11 @@ impl Comparisons {
         let none = never.or(no_interface.filter(|_| accept.frequency.is_none()));
         let frequencies = weigh("frequencies under other boundaries", none, of_others, is_stated);
         let is_stated = is_full || scene.band_hz.is_some() || scene.damping.is_some() || accept.accepts_response();
-        let response = weigh("frequency response", never.or(no_interface), response(job, sizes), is_stated);
+        let mut response = weigh("frequency response", never.or(no_interface), response(sizes), is_stated);
+        // Scans are part of the comparison, and of no decision about it.
+        if matches!(response.need, Need::By(_)) {
+            response.work = response.work + scans(job, sizes, extended(sizes));
+        }
         Self { frequencies, response }
     }
 
@@ -116,16 +120,19 @@ fn others(sizes: &Sizes, n_supports: f64) -> Work {
     sizes.eigensolution(sizes.n_modes) * n_supports + counted
 }
 
-/// The frequency response: blocks of solves until the answer converges, and the residuals of all samples, with the extended basis; scans
-/// between the samples.
-fn response(job: &Job, sizes: &Sizes) -> Work {
+/// Columns of the space in which the response converges.
+fn extended(sizes: &Sizes) -> f64 {
+    sizes.n_reduced() + RESPONSE_BLOCKS * sizes.n_interface
+}
+
+/// The frequency response: blocks of solves until the answer converges, and the residuals of all samples, with the extended basis.
+fn response(sizes: &Sizes) -> Work {
     let n_b = sizes.n_interface;
-    let extended = sizes.n_reduced() + RESPONSE_BLOCKS * n_b;
+    let extended = extended(sizes);
     sizes.solves(RESPONSE_BLOCKS * n_b)
         + sizes.products(RESPONSE_BLOCKS * 4.0 * n_b)
         + sizes.dense(12.0 * RESPONSE_BLOCKS * extended, n_b)
         + sizes.dense(2.0 * extended + n_b, 2.0 * extended + n_b)
-        + scans(job, sizes, extended)
 }
 
 /// Why a comparison is left out, with its estimate, where it costs more than the reduction itself.

@@ -22,6 +22,8 @@ use crate::model::{Finding, Model};
 const FEWEST: i32 = 4;
 /// Half a unit of the last of these: what is resisted more is no rounding.
 const ROUNDED: f64 = 5e-4;
+/// What is resisted less is rounding of doubles. Up to [`EXACT`] nobody needs to know of it, and recovered rows are as exact as any.
+const OF_DOUBLES: f64 = 1e-13;
 /// Digits of a double; a factor that needs as many was not rounded to fewer.
 const OF_DOUBLE: i32 = 16;
 /// Roundings that each factor may be off by in the mean: its own, and that of the coordinates that it was made of.
@@ -42,15 +44,19 @@ pub(super) fn set_right(model: &Model, given: &ConstraintRows) -> Result<(Constr
         return Ok((rows, None));
     }
     for (constraint, own) in given.list.iter().zip(&mut rows.list) {
-        let Some(resisting) = motions.resisted(constraint).filter(|resisting| resisting.share <= ROUNDED) else {
+        let resisting = motions.resisted(constraint, OF_DOUBLES).filter(|resisting| resisting.share <= ROUNDED);
+        let Some(resisting) = resisting else {
             continue;
         };
         let Some(right) = within_digits(&motions, constraint)? else { continue };
-        if motions.resisted(&right).is_some_and(|left| left.share > EXACT) {
+        if motions.resisted(&right, EXACT).is_some() {
             continue;
         }
         let change = change(constraint, &right);
         *own = right;
+        if resisting.share <= EXACT {
+            continue;
+        }
         n_rows += 1;
         if worst.as_ref().is_none_or(|(worst, _)| resisting.share > worst.share) {
             worst = Some((resisting, change));

@@ -42,7 +42,7 @@ impl Resisting<'_> {
 /// [`Error::ConstraintGround`] where the job does not accept it.
 pub(super) fn held_motion(model: &Model, given: &ConstraintRows) -> Result<Option<Finding>> {
     let motions = Motions::of(model);
-    let resisting: Vec<Resisting<'_>> = given.list.iter().filter_map(|row| motions.resisted(row)).collect();
+    let resisting: Vec<Resisting<'_>> = given.list.iter().filter_map(|row| motions.resisted(row, EXACT)).collect();
     let Some(worst) = resisting.iter().reduce(|worst, next| if next.share > worst.share { next } else { worst }) else {
         return Ok(None);
     };
@@ -111,8 +111,9 @@ impl<'a> Motions<'a> {
         }
     }
 
-    /// The motion that a constraint resists most, relative to displacements of all of its dofs of the size that the motion has anywhere.
-    pub(super) fn resisted<'b>(&self, constraint: &'b Constraint) -> Option<Resisting<'b>> {
+    /// The motion that a constraint resists most, relative to displacements of all of its dofs of the size that the motion has anywhere; none
+    /// where that is no more than `least`.
+    pub(super) fn resisted<'b>(&self, constraint: &'b Constraint, least: f64) -> Option<Resisting<'b>> {
         let (mut sums, mut sizes) = ([0.0f64; 6], [0.0f64; 6]);
         let turns = |row: u32| {
             let dof = self.model.dofs.as_ref().and_then(|dofs| dofs[row as usize]);
@@ -136,6 +137,6 @@ impl<'a> Motions<'a> {
         }
         let share = |j: usize| if sizes[j] > 0.0 { sums[j].abs() / sizes[j] } else { 0.0 };
         let motion = (1..6).fold(0, |most, j| if share(j) > share(most) { j } else { most });
-        (share(motion) > EXACT).then(|| Resisting { constraint, motion, share: share(motion) })
+        (share(motion) > least).then(|| Resisting { constraint, motion, share: share(motion) })
     }
 }

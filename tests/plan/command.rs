@@ -248,6 +248,6 @@ fn modes_that_the_scene_chooses_are_those_looked_through() {
     place.write("job.toml", case.job().as_bytes());
     let said = supel(&["plan", &place.text("job.toml")]).expect(ExitCode::Done).out;
     let words: String = said.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("Hz that are looked through; the fewest that `accept` allows stay"), "{said}");
+    assert!(words.contains("Hz that are looked through first; the fewest that `accept` allows stay"), "{said}");
     assert_eq!(planned(&Case::new(PATCHES, HERTING, ""), &[])["modes"]["chosen_by"], "job");
 }
