@@ -3,6 +3,8 @@
 //! Matrix products are cut into tiles of a fixed size, each done by one thread: the same bits for any number of threads.
 //! Decompositions of small matrices run sequentially.
 
+use std::collections::BTreeSet;
+
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
@@ -119,6 +121,23 @@ pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>)> {
 pub(crate) fn unit_diagonal(a: MatRef<'_, f64>) -> (Mat<f64>, Vec<f64>) {
     let scale: Vec<f64> = (0..a.nrows()).map(|i| power_of_two_root(a[(i, i)])).collect();
     (Mat::from_fn(a.nrows(), a.nrows(), |i, j| a[(i, j)] * scale[i] * scale[j]), scale)
+}
+
+/// The numbers below n in parts, each of those that `are_joined` directly or by others.
+pub(crate) fn joined_parts(n: usize, are_joined: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    let mut left: BTreeSet<usize> = (0..n).collect();
+    let mut parts = Vec::new();
+    while let Some(first) = left.pop_first() {
+        let (mut part, mut next) = (vec![first], 0);
+        while let Some(at) = part.get(next).copied() {
+            let joined: Vec<usize> = left.iter().copied().filter(|other| are_joined(at, *other)).collect();
+            joined.iter().for_each(|other| _ = left.remove(other));
+            part.extend(joined);
+            next += 1;
+        }
+        parts.push(part);
+    }
+    parts
 }
 
 /// The space of some columns in a basis that is orthonormal in M; what M does not see is left out, and what is rounding of the columns.

@@ -92,8 +92,8 @@ impl Completed {
         Ok(Self { first_elastic, ..self })
     }
 
-    /// With modes of the space that those of the result and the ones found beside them span: a search beside a combination of two finds
-    /// the other combination.
+    /// Turns the modes of the result, and the modes that a search has added, into modes of the space that they span together. Next to a
+    /// combination of two modes a search finds the other combination of the two.
     ///
     /// # Errors
     /// A dense eigenproblem that does not converge.
@@ -141,19 +141,10 @@ pub(super) fn completed(
         None => default_end(problem, &known, (claims, measured))?,
     };
     let ends = [asked.map_or(0.0, |[from, _]| from), top];
+    let is_asked = asked.is_some();
     let incomplete = |modes: Modes, n_not_sought: usize| {
-        let is_asked = asked.is_some();
-        let known_to = 0.0;
-        Completed {
-            modes,
-            certificate: None,
-            ends,
-            counted: None,
-            known_to,
-            is_asked,
-            n_not_sought,
-            first_elastic: None,
-        }
+        let (certificate, counted, known_to) = (None, None, 0.0);
+        Completed { modes, certificate, ends, counted, known_to, is_asked, n_not_sought, first_elastic: None }
     };
     let Some(end) = end else { return Ok(incomplete(known, 0)) };
     let lowest = begin.map_or(f64::NEG_INFINITY, |begin| begin.inertia.sigma);
@@ -169,8 +160,7 @@ pub(super) fn completed(
     let source = OfResult { search, modes: &given, begin };
     let (modes, certificate) = certified(&source, problem, given.clone(), Some(end), Certify::Count)?;
     let counted = Some([lowest, certificate.as_ref().map_or(end.inertia.sigma, |certificate| certificate.count.sigma)]);
-    let (is_asked, n_not_sought) = (asked.is_some(), n_beyond);
-    Ok(Completed { modes, certificate, ends, counted, known_to, is_asked, n_not_sought, first_elastic: None })
+    Ok(Completed { modes, certificate, ends, counted, known_to, is_asked, n_not_sought: n_beyond, first_elastic: None })
 }
 
 /// The modes of a result as a source that has no others: what is missing the own search finds.

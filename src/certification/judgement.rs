@@ -26,7 +26,7 @@ use crate::sparse::product;
 
 /// Share of its modal mass that a shape has of a mode at least, to be that mode.
 const MOSTLY: f64 = 0.5;
-/// The same of a shape that is independent of the others and has the force of an eigenvector: it may be a combination of two near modes.
+/// Least share for a shape that is independent of the others and whose residual is small: such a shape may combine two near modes.
 const PARTLY: f64 = 0.25;
 /// Relative difference of a frequency beyond which it is not that of its mode: reduced models are accepted with less.
 pub(super) const INEXACT: f64 = 1e-3;

@@ -8,8 +8,6 @@
 //! Modes that are turned by more than rounding are turned back, block by block (Rayleigh and Ritz). What is left of H between blocks is
 //! beyond what any measure sees.
 
-use std::collections::BTreeSet;
-
 use faer::{Mat, MatRef};
 
 use crate::dense;
@@ -52,19 +50,7 @@ pub(super) fn modes_of(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, mu
 /// Modes that are turned against each other, each with those that it reaches through others.
 fn blocks(h: MatRef<'_, f64>) -> Vec<Vec<usize>> {
     let is_turned = |i: usize, j: usize| h[(i, j)].abs() > LEAST_ANGLE * (h[(i, i)] - h[(j, j)]).abs();
-    let mut left: BTreeSet<usize> = (0..h.nrows()).collect();
-    let mut blocks = Vec::new();
-    while let Some(first) = left.pop_first() {
-        let (mut block, mut at) = (vec![first], 0);
-        while let Some(mode) = block.get(at).copied() {
-            let reached: Vec<usize> = left.iter().copied().filter(|other| is_turned(mode, *other)).collect();
-            reached.iter().for_each(|other| _ = left.remove(other));
-            block.extend(reached);
-            at += 1;
-        }
-        blocks.push(block);
-    }
-    blocks
+    dense::joined_parts(h.nrows(), is_turned)
 }
 
 #[cfg(test)]

@@ -180,7 +180,7 @@ pub(super) fn of(sizes: Sizes) -> Units {
     found.unwrap_or_else(|| among(std::slice::from_ref(&NODES_IN_MM), sizes, sizes.mass))
 }
 
-/// Those of some systems that a model of some mass may be in. What the density says is an interval, so that the speed orders them.
+/// Which of the given systems a model of this mass may be in. The density tells an interval only, so the speed orders the systems.
 fn among(systems: &'static [System], sizes: Sizes, mass: f64) -> Units {
     let longest = sizes.extents.iter().fold(0.0f64, |max, extent| max.max(*extent));
     let shortest = sizes.extents.iter().fold(f64::INFINITY, |min, extent| min.min(*extent));

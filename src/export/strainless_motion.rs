@@ -138,24 +138,8 @@ impl Motions {
 
 /// Rows that an entry of one of the matrices joins, directly or by others.
 fn parts(matrices: [MatRef<'_, f64>; 2]) -> Vec<Vec<usize>> {
-    let n = matrices[0].nrows();
     let are_joined = |a: usize, b: usize| matrices.iter().any(|matrix| matrix[(a, b)] != 0.0 || matrix[(b, a)] != 0.0);
-    let mut left: BTreeSet<usize> = (0..n).collect();
-    let mut parts = Vec::new();
-    while let Some(first) = left.pop_first() {
-        let mut part = vec![first];
-        let mut next = 0;
-        while let Some(row) = part.get(next).copied() {
-            let joined: Vec<usize> = left.iter().copied().filter(|other| are_joined(row, *other)).collect();
-            joined.iter().for_each(|other| {
-                left.remove(other);
-            });
-            part.extend(joined);
-            next += 1;
-        }
-        parts.push(part);
-    }
-    parts
+    dense::joined_parts(matrices[0].nrows(), are_joined)
 }
 
 /// The largest sine of a motion of the first basis to the second.

@@ -2,16 +2,16 @@
 
 /// The shortest decimal form of the size of a number that reads back as the same double.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Decimal {
+pub(crate) struct Decimal {
     /// Power of ten of the first digit.
-    pub(super) exponent: i32,
+    pub(crate) exponent: i32,
     /// The digits, without zeros at their end, as a whole number.
     pub(super) mantissa: u64,
-    pub(super) n_digits: u32,
+    pub(crate) n_digits: u32,
 }
 
 impl Decimal {
-    pub(super) fn of(value: f64) -> Self {
+    pub(crate) fn of(value: f64) -> Self {
         Self::of_text(&format!("{:e}", value.abs()))
     }
 
@@ -28,7 +28,7 @@ impl Decimal {
     }
 
     /// Decimals after the point, negative where the number ends with zeros before it.
-    pub(super) fn n_decimals(self) -> i32 {
+    pub(crate) fn n_decimals(self) -> i32 {
         self.n_digits as i32 - 1 - self.exponent
     }
 

@@ -255,7 +255,7 @@ fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, relative: Digits) -> O
     let short = || distinct.iter().filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
     let is_full = |decimal: &&Decimal| decimal.n_decimals() == decimals;
     let full = || short().filter(is_full);
-    // Of a source of many digits the round numbers of a regular mesh, 140000000 beside 157297777.78, tell nothing.
+    // A regular mesh gives round numbers, 140000000 beside 157297777.78. If the source has many digits, they say nothing about its decimals.
     let tells =
         |decimal: &&Decimal| digits <= MAX_EXACT_DIGITS || decimal.n_digits > MAX_EXACT_DIGITS || is_full(decimal);
     let n_full_digits = short().filter(|decimal| decimal.n_digits == digits).count();

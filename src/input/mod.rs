@@ -18,7 +18,7 @@ mod common_rows;
 mod compressed;
 pub(crate) mod condensed_digits;
 mod constraint_file;
-mod decimal;
+pub(crate) mod decimal;
 mod deck_axes;
 mod digits;
 mod dmig;

@@ -15,8 +15,9 @@ use faer::Mat;
 use super::constraint_ground::{EXACT, Motions, Resisting};
 use crate::dense;
 use crate::error::Result;
+use crate::input::decimal::Decimal;
 use crate::input::{Constraint, ConstraintRows};
-use crate::model::{Finding, Model};
+use crate::model::Finding;
 
 /// Digits that factors are taken to have at least.
 const FEWEST: i32 = 4;
@@ -35,8 +36,7 @@ const NOTHING: f64 = 1e-9;
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
-pub(super) fn set_right(model: &Model, given: &ConstraintRows) -> Result<(ConstraintRows, Option<Finding>)> {
-    let motions = Motions::of(model);
+pub(super) fn set_right(motions: &Motions<'_>, given: &ConstraintRows) -> Result<(ConstraintRows, Option<Finding>)> {
     let mut rows = given.clone();
     let mut worst: Option<(Resisting<'_>, f64)> = None;
     let mut n_rows = 0;
@@ -45,10 +45,8 @@ pub(super) fn set_right(model: &Model, given: &ConstraintRows) -> Result<(Constr
     }
     for (constraint, own) in given.list.iter().zip(&mut rows.list) {
         let resisting = motions.resisted(constraint, OF_DOUBLES).filter(|resisting| resisting.share <= ROUNDED);
-        let Some(resisting) = resisting else {
-            continue;
-        };
-        let Some(right) = within_digits(&motions, constraint)? else { continue };
+        let Some(resisting) = resisting else { continue };
+        let Some(right) = within_digits(motions, constraint)? else { continue };
         if motions.resisted(&right, EXACT).is_some() {
             continue;
         }
@@ -63,7 +61,7 @@ pub(super) fn set_right(model: &Model, given: &ConstraintRows) -> Result<(Constr
         }
     }
     let finding = worst.map(|(resisting, change)| {
-        let (row, dofs) = (resisting.constraint.row + 1, resisting.constraint.dofs(model.names()).join(", "));
+        let (row, dofs) = (resisting.constraint.row + 1, resisting.constraint.dofs(motions.names()).join(", "));
         Finding::ConstraintMended { row, dofs, motion: resisting.name(), n_rows, share: resisting.share, change }
     });
     Ok((rows, finding))
@@ -103,14 +101,14 @@ fn within_digits(motions: &Motions<'_>, constraint: &Constraint) -> Result<Optio
 /// Half a unit of the last digit of each factor. The longest of them tells how many digits all have, or how many decimals: of few factors it
 /// is not known which, and it is the coarser.
 fn half_units(terms: &[(u32, f64)]) -> Vec<f64> {
-    let forms: Vec<(i32, i32)> = terms.iter().map(|(_, value)| decimal_form(*value)).collect();
-    let n_digits = forms.iter().fold(FEWEST, |most, (n_digits, _)| most.max(*n_digits));
-    let n_decimals = forms.iter().map(|(n_digits, exponent)| n_digits - 1 - exponent).max().unwrap_or(0);
-    let exponent = forms.iter().map(|(_, exponent)| *exponent).max().unwrap_or(0);
+    let forms: Vec<Decimal> = terms.iter().map(|(_, value)| Decimal::of(*value)).collect();
+    let n_digits = forms.iter().fold(FEWEST, |most, form| most.max(form.n_digits as i32));
+    let n_decimals = forms.iter().map(|form| form.n_decimals()).max().unwrap_or(0);
+    let exponent = forms.iter().map(|form| form.exponent).max().unwrap_or(0);
     let of_decimals = half(-n_decimals.max(FEWEST - 1 - exponent));
     let are_single = terms.iter().all(|(_, value)| f64::from(*value as f32) == *value);
-    let of_each = |((_, value), (_, exponent)): (&(u32, f64), &(i32, i32))| match n_digits < OF_DOUBLE {
-        true => half(exponent + 1 - n_digits).max(of_decimals),
+    let of_each = |((_, value), form): (&(u32, f64), &Decimal)| match n_digits < OF_DOUBLE {
+        true => half(form.exponent + 1 - n_digits).max(of_decimals),
         false if are_single => f64::from(f32::EPSILON) / 2.0 * value.abs(),
         false => f64::EPSILON * value.abs(),
     };
@@ -120,13 +118,6 @@ fn half_units(terms: &[(u32, f64)]) -> Vec<f64> {
 /// Half of a power of ten.
 fn half(exponent: i32) -> f64 {
     0.5 * 10f64.powi(exponent)
-}
-
-/// How many digits the shortest decimal form of a number has, and the power of ten of the first.
-fn decimal_form(value: f64) -> (i32, i32) {
-    let text = format!("{:e}", value.abs());
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    (digits.bytes().filter(u8::is_ascii_digit).count() as i32, exponent.parse().unwrap_or(0))
 }
 
 /// By how much of the largest factor another was changed at most.

@@ -9,6 +9,7 @@
 
 use supel_runtime::MOTIONS;
 
+use crate::dofs::RowNames;
 use crate::error::{Error, Result};
 use crate::input::{Constraint, ConstraintRows};
 use crate::model::{Finding, Frame, Model, Site};
@@ -40,14 +41,13 @@ impl Resisting<'_> {
 ///
 /// # Errors
 /// [`Error::ConstraintGround`] where the job does not accept it.
-pub(super) fn held_motion(model: &Model, given: &ConstraintRows) -> Result<Option<Finding>> {
-    let motions = Motions::of(model);
+pub(super) fn held_motion(motions: &Motions<'_>, given: &ConstraintRows) -> Result<Option<Finding>> {
     let resisting: Vec<Resisting<'_>> = given.list.iter().filter_map(|row| motions.resisted(row, EXACT)).collect();
     let Some(worst) = resisting.iter().reduce(|worst, next| if next.share > worst.share { next } else { worst }) else {
         return Ok(None);
     };
     let (row, motion, n_rows) = (worst.constraint.row + 1, worst.name(), resisting.len());
-    let dofs = worst.constraint.dofs(model.names());
+    let dofs = worst.constraint.dofs(motions.names());
     if worst.share <= ROUNDED {
         let (dofs, share) = (dofs.join(", "), worst.share);
         return Ok(Some(Finding::ConstraintRounded { row, dofs, motion, n_rows, share }));
@@ -79,6 +79,11 @@ impl<'a> Motions<'a> {
             None => ([0.0; 3], 1.0),
         };
         Self { model, sites, centre, size }
+    }
+
+    /// What rows are called.
+    pub(super) fn names(&self) -> RowNames<'_> {
+        self.model.names()
     }
 
     /// Whether rows have places.

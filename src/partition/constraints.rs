@@ -39,9 +39,10 @@ const OF_PATCH: u32 = u32::MAX;
 pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(Transformation, usize, Vec<Finding>)> {
     let Some(given) = &model.constraints else { return Ok((transformation, 0, Vec::new())) };
     refuse_out_of_range(given)?;
-    let (given, mended) = constraint_digits::set_right(model, given)?;
+    let motions = constraint_ground::Motions::of(model);
+    let (given, mended) = constraint_digits::set_right(&motions, given)?;
     let given = &given;
-    let ground = constraint_ground::held_motion(model, given)?;
+    let ground = constraint_ground::held_motion(&motions, given)?;
     let whole = size(model);
     let scales = scales(given, &transformation, whole);
     let rows: Vec<Terms> = given.list.iter().map(|row| carried(row, &transformation, &scales)).collect();

@@ -31,12 +31,7 @@ pub(super) fn count(foreign: &Foreign, first: f64) -> Result<usize> {
 
 /// Eigenvalues of a pencil within the range of its mass.
 fn within_range(stiffness: &Mat<f64>, mass: &Mat<f64>) -> Result<Vec<f64>> {
-    let (scaled, scale) = dense::unit_diagonal(mass.as_ref());
-    let (values, vectors) = dense::symmetric_eigen(scaled.as_ref())?;
-    let r = values.len();
-    let least = dense::NOISE_FACTOR * r as f64 * f64::EPSILON * values.last().copied().unwrap_or(0.0);
-    let inside: Vec<usize> = (0..r).filter(|j| values[*j] > least).collect();
-    let shapes = Mat::from_fn(r, inside.len(), |i, j| scale[i] * vectors[(i, inside[j])] / values[inside[j]].sqrt());
+    let shapes = dense::orthonormal(Mat::identity(mass.nrows(), mass.ncols()).as_ref(), mass.as_ref());
     let mut within = dense::gram(shapes.as_ref(), dense::product(stiffness.as_ref(), shapes.as_ref()).as_ref());
     dense::symmetrise(&mut within);
     Ok(dense::symmetric_eigen(within.as_ref())?.0)
