@@ -7,13 +7,14 @@ use super::free::Free;
 use super::mended::{Mended, apart, mended};
 use super::motions::{AXES, FIVE_DIGITS, Motions, SIX_DIGITS};
 use super::nodes::FIRST_ROTATION;
-use super::zeros::{Zeros, counted, n_loose_rows, whole};
+use super::zeros::{Whole, Zeros, n_loose_rows};
 use crate::dofs::Direction;
 use crate::error::{Error, ErrorClass, Result};
 use crate::job::Mechanisms;
 use crate::model::{CoordinateFit, Misfit, RoundedCoordinates};
 use crate::number::quantity;
 use crate::partition::TiedNodes;
+use crate::rigid::refuse_uncounted;
 use supel_runtime::MOTIONS;
 
 /// Share of the Rayleigh quotient of the first elastic mode that rounded coordinates may cost. Five digits of a plate of
@@ -57,20 +58,20 @@ pub(super) fn settled(
     let free = Free::of_all(motions)?;
     let n_explained = free.iter().map(|free| free.n_free).sum::<usize>() + n_loose_rows(motions);
     let case = Case { motions, doubts, free, n_explained, mechanisms, tied };
-    let whole = whole(motions)?;
+    let whole = Whole::of(motions);
     match doubts.iter().all(|doubt| doubt.costly.is_empty()) {
         true => {
             let noise = case.free.iter().fold(0.0, |max: f64, free| max.max(free.noise));
-            match counted(&whole, noise)? {
+            match whole.counted(noise)? {
                 Some(n_zero) if n_zero <= n_explained => Ok(CoordinateFit::Exact),
-                _ => match Zeros::of(&whole) {
+                _ => match whole.zeros() {
                     Ok(zeros) => case.supports(&zeros),
                     Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Unknown),
                     Err(error) => Err(error),
                 },
             }
         }
-        false => case.rotations(&Zeros::of(&whole)?),
+        false => case.rotations(&whole.zeros()?),
     }
 }
 
@@ -83,7 +84,7 @@ pub(super) fn with_axes_as_known(motions: &Motions<'_>, doubts: &[Doubt]) -> Res
         return Ok(CoordinateFit::Exact);
     }
     let free = Free::of_all(motions)?;
-    match Zeros::of(&whole(motions)?) {
+    match Whole::of(motions).zeros() {
         Ok(zeros) => Ok(CoordinateFit::Rounded(mended(motions, &free, &zeros, (None, &|_| false))?.coordinates)),
         Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Exact),
         Err(error) => Err(error),
@@ -97,6 +98,11 @@ fn is_of_the_arithmetic(error: &Error) -> bool {
 }
 
 impl Case<'_> {
+    /// An error where few digits of K leave open which motions are without energy.
+    fn refuse_uncounted(&self, zeros: &Zeros) -> Result<()> {
+        refuse_uncounted(self.motions.model.precision.stiffness, zeros.count(), zeros.bar_of_digits)
+    }
+
     /// Supports touch some rows, and the coordinates are right on all others: more motions without energy than they explain
     /// are mechanisms, unless they are rigid-body motions as far as the other rows tell.
     fn supports(&self, zeros: &Zeros) -> Result<CoordinateFit> {
@@ -135,7 +141,7 @@ impl Case<'_> {
                 false => Ok(CoordinateFit::Exact),
             };
         }
-        zeros.refuse_uncounted()?;
+        self.refuse_uncounted(zeros)?;
         let costly: Vec<usize> = (0..6).filter(|motion| self.costs_energy(worst, *motion)).collect();
         let place = Place::of(motions, &motions.bodies[worst.body].rows, &costly);
         let mut error = self.misfit(zeros, &costly, cost, place.at);
@@ -162,7 +168,7 @@ impl Case<'_> {
         if zeros.count() != n_moving || n_moving == self.n_explained || self.mechanisms == Mechanisms::Accept {
             return Ok(());
         }
-        zeros.refuse_uncounted()?;
+        self.refuse_uncounted(zeros)?;
         let (energy, worst) = apart(self.motions, (&self.free, zeros), looked_at)?;
         let expected = SIX_DIGITS.max(zeros.turn);
         if energy <= expected {

@@ -1,17 +1,19 @@
 //! The motions without energy that K has, whatever the coordinates say.
 
+use std::cell::OnceCell;
+
 use faer::Mat;
 
 use super::doubt::Doubt;
 use super::motions::{Body, Motions};
-use crate::cache::recalled;
+use crate::cache::{Digest, Key, Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
+use crate::dofs::Dof;
 use crate::error::{Error, Result};
 use crate::factor::count_below;
 use crate::model::Model;
 use crate::partition::{DofOrigin, Held, Partition};
-use crate::rigid::{ZeroModes, moving_directions, refuse_uncounted, zero_modes};
-use crate::sparse::Rounding;
+use crate::rigid::{ZeroModes, found_zero_modes, moving_directions};
 
 /// A shift just above zero, in units of what rounding of the data can make of a zero eigenvalue: as many as an eigenvalue may
 /// be off by rounding of the factorisation before a sign is wrong.
@@ -35,21 +37,58 @@ pub(super) fn n_loose_rows(motions: &Motions<'_>) -> usize {
     motions.bodies.iter().filter_map(of_body).sum::<usize>() + scalars.count()
 }
 
-/// K and M whole, in order of elimination, before constraints tie anything. Rows without stiffness and mass say nothing of coordinates.
-pub(super) fn whole(motions: &Motions<'_>) -> Result<Partition> {
-    let held = Held::of_rows(motions.model.empty_rows());
-    Partition::with_held(Model { constraints: None, ..motions.model.clone() }, &[], held)
+/// K and M whole, before constraints tie anything. They are laid out in order of elimination once something has to be computed that no
+/// earlier run has kept.
+pub(super) struct Whole<'a> {
+    model: &'a Model,
+    laid_out: OnceCell<Partition>,
+    digest: OnceCell<Digest>,
 }
 
-/// Eigenvalues of the pencil that are zero as far as a Sturm count tells, or `None` where the shift meets one; `noise` is
-/// what rounding of the data can make of a zero one.
-pub(super) fn counted(whole: &Partition, noise: f64) -> Result<Option<usize>> {
-    let sigma = ROUNDINGS * noise;
-    let key = || whole.key_of_matrices("count").numbers(&[sigma]);
-    match recalled(whole.cache(), key, || count_below(&whole.analysis()?, whole.pencil(), sigma)) {
-        Ok(count) if count.is_off_clamped() => Ok(Some(count.free)),
-        Ok(_) | Err(Error::SturmPivot) => Ok(None),
-        Err(error) => Err(error),
+impl<'a> Whole<'a> {
+    pub(super) fn of(motions: &Motions<'a>) -> Self {
+        Self { model: motions.model, laid_out: OnceCell::new(), digest: OnceCell::new() }
+    }
+
+    /// Rows without stiffness and mass are left out: they say nothing of coordinates.
+    fn partition(&self) -> Result<&Partition> {
+        if let Some(laid_out) = self.laid_out.get() {
+            return Ok(laid_out);
+        }
+        let held = Held::of_rows(self.model.empty_rows());
+        let laid_out = Partition::with_held(Model { constraints: None, ..self.model.clone() }, &[], held)?;
+        Ok(self.laid_out.get_or_init(|| laid_out))
+    }
+
+    /// The key of what a function makes of them. Which rows are of one node decides the order of elimination.
+    fn key(&self, function: &str) -> Key {
+        let Model { stiffness, mass, scaling, precision, dofs, axes, .. } = self.model;
+        let digest = || {
+            let key = Key::of("whole model").matrix(stiffness).matrix(mass).shown(scaling).shown(precision).shown(axes);
+            let of_dof = |dof: &Option<Dof>| dof.map_or([0, -1], |dof| [dof.node, dof.direction as i64]);
+            let dofs: Vec<[i64; 2]> = dofs.iter().flatten().map(of_dof).collect();
+            key.numbers(&dofs).digest()
+        };
+        Key::of(function).numbers(self.digest.get_or_init(digest))
+    }
+
+    /// Eigenvalues of the pencil that are zero as far as a Sturm count tells, or `None` where the shift meets one; `noise` is
+    /// what rounding of the data can make of a zero one.
+    pub(super) fn counted(&self, noise: f64) -> Result<Option<usize>> {
+        let sigma = ROUNDINGS * noise;
+        let key = || self.key("count of zero eigenvalues").numbers(&[sigma]);
+        let found = || self.partition().and_then(|whole| count_below(&whole.analysis()?, whole.pencil(), sigma));
+        match recalled(self.model.cache.as_ref(), key, found) {
+            Ok(count) if count.is_off_clamped() => Ok(Some(count.free)),
+            Ok(_) | Err(Error::SturmPivot) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// The zero modes of K, by inverse iteration.
+    pub(super) fn zeros(&self) -> Result<Zeros> {
+        let key = || self.key("zero modes of the rows");
+        recalled(self.model.cache.as_ref(), key, || Zeros::of(self.partition()?))
     }
 }
 
@@ -62,18 +101,14 @@ pub(super) struct Zeros {
     /// The first eigenvalues above zero, ascending.
     elastic: Vec<f64>,
     /// Relative error bar that few digits of K leave of the first of them.
-    bar_of_digits: f64,
-    /// How well the entries of K are known.
-    rounding: Rounding,
+    pub(super) bar_of_digits: f64,
     /// The angle by which roundings turn them towards elastic modes at most.
     pub(super) turn: f64,
 }
 
 impl Zeros {
-    /// By inverse iteration on the whole pencil.
-    pub(super) fn of(whole: &Partition) -> Result<Self> {
-        let ZeroModes { rigid: zero, elastic, bar_of_digits, .. } = zero_modes(whole)?;
-        let rounding = whole.precision.stiffness;
+    fn of(whole: &Partition) -> Result<Self> {
+        let ZeroModes { rigid: zero, elastic, bar_of_digits, .. } = found_zero_modes(whole)?;
         let by_row = |a: &Mat<f64>| {
             let mut rows = Mat::zeros(a.nrows(), a.ncols());
             for (dof, reduced) in whole.dofs.iter().enumerate() {
@@ -87,7 +122,6 @@ impl Zeros {
             momenta: by_row(&zero.mass_orthonormal),
             elastic,
             bar_of_digits,
-            rounding,
             turn: zero.energy.angle,
         })
     }
@@ -99,11 +133,6 @@ impl Zeros {
 
     pub(super) fn count(&self) -> usize {
         self.shapes.ncols()
-    }
-
-    /// An error where few digits of K leave open which motions are without energy.
-    pub(super) fn refuse_uncounted(&self) -> Result<()> {
-        refuse_uncounted(self.rounding, self.count(), self.bar_of_digits)
     }
 
     /// Combinations of the zero modes that are rigid-body motions, body by body, on the rows that no support touches.
@@ -132,5 +161,23 @@ impl Zeros {
         let shares = dense::gram(unit.as_ref(), dense::product(rigid.as_ref(), unit.as_ref()).as_ref());
         let (shares, _) = dense::symmetric_eigen(shares.as_ref())?;
         Ok(shares.into_iter().filter(|share| *share >= 1.0 - NOT_RIGID).count())
+    }
+}
+
+impl Recorded for Zeros {
+    const KIND: Kind = Kind::Modes;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        let Self { shapes, momenta, elastic, bar_of_digits, turn } = self;
+        to.columns(shapes.as_ref())?;
+        to.columns(momenta.as_ref())?;
+        to.array(elastic)?;
+        to.array(&[*bar_of_digits, *turn])
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let (shapes, momenta, elastic) = (from.columns()?, from.columns()?, from.array()?);
+        let [bar_of_digits, turn] = from.array()?[..] else { return None };
+        Some(Self { shapes, momenta, elastic, bar_of_digits, turn })
     }
 }

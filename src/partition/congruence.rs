@@ -38,11 +38,15 @@ pub(super) fn general_congruence(matrix: &SparseMatrix, transformation: &Transfo
 fn rows(matrix: &SparseMatrix, moved: &Moved<'_>) -> RowStorage {
     let n = moved.transformation.dofs.len();
     let dofs = (0..n).into_par_iter().with_min_len(ROWS_PER_TASK);
-    let length = |row: &mut Row, dof: usize| {
-        moved.permuted_length(matrix, dof).unwrap_or_else(|| row.gather(matrix, moved, dof).sums().count())
+    let length = |row: &mut Row, dof: usize| match moved.permuted(matrix, dof) {
+        Some(own) => own.len(),
+        None => row.gather(matrix, moved, dof).sums().count(),
     };
     let lengths: Vec<usize> = dofs.map_init(Row::default, length).collect();
     filled(&lengths, Row::default, |row, dof, indices, values| {
+        if let Some(own) = moved.permuted(matrix, dof) {
+            return row.sort(own, indices, values);
+        }
         let places = indices.iter_mut().zip(values);
         let sums = row.gather(matrix, moved, dof).sums();
         sums.zip(places).for_each(|((col, sum), (index, value))| (*index, *value) = (col, sum.value()));
@@ -76,15 +80,20 @@ impl<'a> Moved<'a> {
         Self { transformation, by_patch_nodes, has_long_rows }
     }
 
-    /// Entries of a dof's row where it is a row of A with its columns in other places, each to itself.
-    fn permuted_length(&self, matrix: &SparseMatrix, dof: usize) -> Option<usize> {
+    /// Columns and values of a dof's row, not in order, where it is a row of A with its columns in other places, each to itself.
+    fn permuted<'m>(&self, matrix: &'m SparseMatrix, dof: usize) -> Option<impl ExactSizeIterator<Item = (u32, f64)>> {
         let DofOrigin::Row(row) = self.transformation.dofs[dof].origin else { return None };
         if self.by_patch_nodes.contains_key(&dof) {
             return None;
         }
-        let columns = matrix.outer_view(row).map_or(&[][..], |row| row.into_raw_storage().0);
-        let is_dof = |col: &u32| matches!(self.transformation.rows[*col as usize], TransformationRow::Dof(_));
-        columns.iter().all(is_dof).then_some(columns.len())
+        let (columns, values) = matrix.outer_view(row).map_or((&[][..], &[][..]), |row| row.into_raw_storage());
+        let place = |col: u32| match self.transformation.rows[col as usize] {
+            TransformationRow::Dof(dof) => Some(dof),
+            _ => None,
+        };
+        let is_permuted = columns.iter().all(|col| place(*col).is_some());
+        is_permuted
+            .then(|| columns.iter().zip(values).map(move |(col, value)| (place(*col).unwrap_or_default(), *value)))
     }
 
     fn with(&self, dof: usize) -> impl Iterator<Item = (usize, f64)> {
@@ -104,6 +113,8 @@ struct Row {
     /// the order of the model, so that their sum is always the same.
     keys: Vec<u64>,
     values: Vec<Twofold>,
+    /// Values that are single terms.
+    unsorted: Vec<f64>,
 }
 
 impl Row {
@@ -126,6 +137,20 @@ impl Row {
         }
         assert!(self.values.len() <= u32::MAX as usize, "a row of TᵀAT has {} terms", self.values.len());
         self
+    }
+
+    /// Writes entries of columns of their own in the order of these.
+    fn sort(&mut self, entries: impl Iterator<Item = (u32, f64)>, indices: &mut [u32], values: &mut [f64]) {
+        self.clear();
+        self.unsorted.clear();
+        for (at, (col, value)) in entries.enumerate() {
+            self.keys.push(u64::from(col) << 32 | at as u64);
+            self.unsorted.push(value);
+        }
+        self.keys.sort_unstable();
+        for (key, (index, value)) in self.keys.iter().zip(indices.iter_mut().zip(values)) {
+            (*index, *value) = ((key >> 32) as u32, self.unsorted[(key & u64::from(u32::MAX)) as usize]);
+        }
     }
 
     fn clear(&mut self) {

@@ -45,7 +45,8 @@ pub(crate) fn zero_modes(partition: &Partition) -> Result<ZeroModes> {
     recalled(partition.cache(), key, || found_zero_modes(partition))
 }
 
-fn found_zero_modes(partition: &Partition) -> Result<ZeroModes> {
+/// [`zero_modes`], whatever earlier runs have kept.
+pub(crate) fn found_zero_modes(partition: &Partition) -> Result<ZeroModes> {
     let analysis = Analysis::new(partition.pencil())?;
     let problem = partition.free_problem();
     let found = shifted(&analysis, problem, &|step| partition.name_of(step))?;

@@ -23,7 +23,7 @@ mod rigid_body_modes;
 mod shift;
 
 pub use algebraic::from_matrices;
-pub(crate) use algebraic::{ZeroModes, lost_interface, refuse_uncounted, zero_modes};
+pub(crate) use algebraic::{ZeroModes, found_zero_modes, lost_interface, refuse_uncounted, zero_modes};
 pub(crate) use energy::{largest_residual, noise_of_digits, zero_energy};
 pub use facts::facts;
 pub(crate) use geometric::{moving_directions, settled};

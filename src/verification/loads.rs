@@ -8,6 +8,7 @@ use super::conditioning::{Columns, independence};
 use super::directions::Directions;
 use super::evidence::{Evidence, data_noise};
 use crate::basis::DynamicCoordinate;
+use crate::cache::{Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::eigen::{lowest_eigenpairs, scaled_by};
 use crate::error::Result;
@@ -139,9 +140,13 @@ pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<Effecti
     let directions = Directions::free(evidence);
     let inertia = product(&partition.mass, directions.motions.as_ref());
     let gamma = inertia.as_ref().subrows(0, n_i);
-    let Some(totals) = interior_masses(evidence, gamma, directions.motions.as_ref().subrows(0, n_i)) else {
+    let start = directions.motions.as_ref().subrows(0, n_i);
+    let key = || partition.key_of_matrices("inertia of the interior").columns(directions.motions.as_ref());
+    let found = || Ok(InteriorMasses(interior_masses(evidence, gamma, start)));
+    let InteriorMasses(Some(totals)) = recalled(partition.cache(), key, found)? else { return Ok(None) };
+    if totals.len() != directions.count() {
         return Ok(None);
-    };
+    }
     let (k, m) = (evidence.reduction.stiffness.as_ref(), evidence.reduction.mass.as_ref());
     let held = |a: MatRef<'_, f64>| a.submatrix(n_b, n_b, n_eta, n_eta).to_owned();
     let first = (0..n_eta).map(|i| k[(n_b + i, n_b + i)]).fold(f64::INFINITY, f64::min);
@@ -152,6 +157,22 @@ pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<Effecti
         |mode: usize, j: usize| if totals[j] > 0.0 { participation[(mode, j)].powi(2) / totals[j] } else { 0.0 };
     let shares = (0..shapes.ncols()).map(|mode| (0..totals.len()).map(|j| share(mode, j)).collect()).collect();
     Ok(Some(EffectiveMasses { directions: directions.names, shares }))
+}
+
+/// ΓᵀM_II⁻¹Γ of each direction as an entry of a cache has it; none where it is not known.
+struct InteriorMasses(Option<Vec<f64>>);
+
+impl Recorded for InteriorMasses {
+    const KIND: Kind = Kind::Statics;
+
+    fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
+        to.array(self.0.as_deref().unwrap_or_default())
+    }
+
+    fn read(from: &mut Reader<'_>) -> Option<Self> {
+        let totals = from.array()?;
+        Some(Self((!totals.is_empty()).then_some(totals)))
+    }
 }
 
 /// γᵀ M_II⁻¹ γ of each column, by conjugate gradients with the diagonal of M_II: a mass matrix is that well conditioned.

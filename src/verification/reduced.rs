@@ -226,9 +226,8 @@ pub(super) fn definite_stiffness(evidence: &Evidence<'_>, lifted: &[f64]) -> Che
 /// A mass that is singular is not a failure: rotations without inertia leave one. M-23 warns of it.
 pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check {
     let stiffness = spectrum.negative_share();
-    let first = spectrum.first_elastic();
     let by_itself = || Judged { limits: zero_level(evidence), fail_above: zero_level(evidence).value() };
-    let of_stiffness = first.map_or_else(by_itself, |first| energy_limits(evidence, first));
+    let of_stiffness = spectrum.first_elastic().map_or_else(by_itself, |_| energy_limits(evidence, spectrum));
     let (mass, of_mass) = ((-spectrum.lowest_mass.0).max(0.0), by_itself());
     let is_mass = dense::worse(mass / of_mass.limits.value(), stiffness / of_stiffness.limits.value());
     let (value, Judged { limits, fail_above }, which, at) = match is_mass {

@@ -4,7 +4,7 @@ use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
 use super::force;
 use super::grounding::{Grounding, Restraint};
-use super::limits::{self, Judged, Known};
+use super::limits::{self, Judged};
 use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use crate::constraint::rigid_error;
@@ -33,23 +33,15 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
             ..check
         };
     };
-    let judged = energy_limits(evidence, first);
+    let judged = energy_limits(evidence, spectrum);
     let value = energy.largest_quotient / first;
     Check { value, limits: judged.limits, fail_above: judged.fail_above, ..check }
 }
 
 /// Limits of an energy that should be zero. They come from the error bars of the modes and from what few digits make of rigid-body motion
 /// itself, which the bars of modes with the interface held do not show. Without either they come from the moduli of its terms.
-pub(super) fn energy_limits(evidence: &Evidence<'_>, first: f64) -> Judged {
-    limits::of_energy(energy_noise(evidence, first), share_of_data(evidence.partition))
-}
-
-/// What rounding makes of an energy, relative to the first elastic eigenvalue, by the modes of the reduction.
-fn energy_noise(evidence: &Evidence<'_>, first: f64) -> f64 {
-    let modes = &evidence.retained.modes;
-    let known = modes.lambda.iter().zip(&modes.errors);
-    let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
-    limits::energy_noise((evidence.partition, evidence.rigid), known, first)
+pub(super) fn energy_limits(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Judged {
+    limits::of_energy(spectrum.noise, share_of_data(evidence.partition))
 }
 
 /// M-05, residual.
@@ -187,8 +179,7 @@ impl Disturbance {
             Some(first) => first,
             None => evidence.reduction.elastic_scale()?.unwrap_or(1.0),
         };
-        let noise = known.map_or(0.0, |first| energy_noise(evidence, first));
-        Ok(Self { first, noise, share_of_data: share_of_data(evidence.partition) })
+        Ok(Self { first, noise: spectrum.noise, share_of_data: share_of_data(evidence.partition) })
     }
 }
 

@@ -4,7 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::check::{Limits, MAX_EXCUSE};
 use super::evidence::{Evidence, coordinate_scales, data_noise};
-use super::limits::{GROUNDED, n_nearly_free};
+use super::limits::{self, GROUNDED, Known, n_nearly_free};
 use crate::dense;
 use crate::eigen::{Spectral, eigenvalues, rayleigh_quotients, scaled_by, sharpen, zero};
 use crate::error::Result;
@@ -35,6 +35,8 @@ pub(super) struct Spectrum {
     pub(super) lowest_elastic: f64,
     /// The smallest eigenvalue of M̂ with unit diagonal, and the coordinate that takes the largest part in it.
     pub(super) lowest_mass: (f64, usize),
+    /// What rounding makes of an energy, relative to the first elastic eigenvalue; zero where none is known.
+    pub(super) noise: f64,
 }
 
 impl Spectrum {
@@ -79,7 +81,7 @@ impl Spectrum {
         let first = free.get(n_soft).copied().unwrap_or(0.0);
         let is_free = |j: usize| is_zero(j) || free[j].abs() <= GROUNDED * first;
         let n_free = (0..n_pencil.min(shapes.ncols())).filter(|j| is_free(*j)).count();
-        Ok(Self {
+        let spectrum = Self {
             zero_shapes: shapes.as_ref().subcols(0, n_pencil.min(shapes.ncols())).to_owned(),
             free,
             is_definite,
@@ -91,7 +93,10 @@ impl Spectrum {
             of_full: first_of_full(evidence, n_soft - n_pencil),
             softest: largest_component(vectors.as_ref()),
             lowest_mass: (masses.first().copied().unwrap_or(0.0), largest_component(mass_vectors.as_ref())),
-        })
+            noise: 0.0,
+        };
+        let noise = spectrum.first_elastic().map_or(0.0, |first| energy_noise(evidence, first));
+        Ok(Self { noise, ..spectrum })
     }
 
     /// How far below zero the lowest eigenvalue lies, relative to the first elastic one; one, which it is at least, where the
@@ -170,6 +175,14 @@ fn zero_levels(evidence: &Evidence<'_>, shapes: MatRef<'_, f64>) -> Vec<f64> {
     let problem = evidence.partition.free_problem();
     let (_, errors, _) = rayleigh_quotients(problem, evidence.basis.expanded(shapes).as_ref());
     errors.iter().map(|error| error.zero_level).collect()
+}
+
+/// What rounding makes of an energy, relative to the first elastic eigenvalue, by the modes of the reduction.
+fn energy_noise(evidence: &Evidence<'_>, first: f64) -> f64 {
+    let modes = &evidence.retained.modes;
+    let known = modes.lambda.iter().zip(&modes.errors);
+    let known = known.map(|(lambda, error)| Known { lambda: *lambda, relative_bar: error.data_bar });
+    limits::energy_noise((evidence.partition, evidence.rigid), known, first)
 }
 
 /// Size below which an eigenvalue of K̂ in the scales of its coordinates is zero: rounding of its r terms before they

@@ -159,7 +159,6 @@ fn other_jobs_take_what_is_theirs() {
         (format!("{RIGID} --method mixed-interface --held root --modes 6"), true),
         (format!("{RIGID} --method mixed-interface --held tip --modes 6"), true),
         (format!("{RIGID} --method guyan"), true),
-        (format!("{RIGID} {PLAIN} --precision mixed"), false),
         (format!("{DIRECT} {PLAIN}"), false),
         (format!("{RIGID} {PLAIN} --fix foot=23"), false),
     ] {
@@ -171,6 +170,12 @@ fn other_jobs_take_what_is_theirs() {
             false => assert_eq!((&of_cache["taken"], &of_cache["parts"]), (&json!({}), &json!(0)), "{rest}"),
         }
     }
+    // What no factor is needed for is that of either precision.
+    let mixed = format!("{RIGID} {PLAIN} --precision mixed");
+    let (plain, _, _) = reduced(&place, &mixed);
+    let (found, of_cache, _) = cached(&place, &mixed);
+    assert_same(&found, &plain, &mixed);
+    assert_eq!(of_cache["taken"], json!({ "statics": 1 }));
 }
 
 /// Twice K and M are the same numbers once they are scaled, and their modes are others; numbers of fewer digits have other bars.
@@ -351,9 +356,37 @@ fn a_job_that_looks_for_its_modes_takes_nothing_from_itself() {
 /// A value of M leaves the factor at shift zero as it is, one of K changes everything.
 #[test]
 fn a_changed_number_is_noticed() {
-    let words = format!("{RIGID} {PLAIN}");
+    is_noticed(&Place::with_brick(), Some(1));
+}
+
+/// Rounded coordinates are mended by the zero modes of K and M, which are kept as well.
+#[test]
+fn a_changed_number_is_noticed_beside_rounded_coordinates() {
     let place = Place::with_brick();
-    cached(&place, &words);
+    let nodes = String::from_utf8(place.bytes("nodes.csv")).expect("text");
+    let rounded = |(line, text): (usize, &str)| {
+        let fields: Vec<String> = text.split(',').map(str::to_owned).collect();
+        let Ok(x) = fields[1].parse::<f64>() else { return format!("{text}\n") };
+        format!("{},{},{}\n", fields[0], x + 1e-6 * (1.7 * line as f64).sin(), fields[2..].join(","))
+    };
+    let nodes: String = nodes.lines().enumerate().map(rounded).collect();
+    place.write("nodes.csv", nodes.as_bytes());
+    // They move the rows of patches, so that the factor is another one, too.
+    is_noticed(&place, None);
+    let (_, of_cache, ended) = cached(&place, &format!("{RIGID} {PLAIN}"));
+    assert!(
+        ended.out.contains("W-COORD-ROUNDED") || ended.err.contains("W-COORD-ROUNDED"),
+        "{}{}",
+        ended.out,
+        ended.err
+    );
+    assert!(of_cache["taken"]["modes"].as_u64() >= Some(2), "zero modes and others: {of_cache}");
+}
+
+#[track_caller]
+fn is_noticed(place: &Place, factors: Option<u64>) {
+    let words = format!("{RIGID} {PLAIN}");
+    cached(place, &words);
     let [stiffness, mass] = ["K.mtx", "M.mtx"].map(|name| place.bytes(name));
     // A late digit of the last entry, which is on the diagonal.
     let changed = |bytes: &[u8]| {
@@ -365,17 +398,17 @@ fn a_changed_number_is_noticed() {
         text.replace_range(at..=at, &next.to_string());
         text.into_bytes()
     };
-    for (name, bytes, factors) in [("M.mtx", &mass, Some(1)), ("K.mtx", &stiffness, None)] {
+    for (name, bytes, factors) in [("M.mtx", &mass, factors), ("K.mtx", &stiffness, None)] {
         place.write(name, &changed(bytes));
-        let (plain, _, _) = reduced(&place, &words);
-        let (found, of_cache, _) = cached(&place, &words);
+        let (plain, _, _) = reduced(place, &words);
+        let (found, of_cache, _) = cached(place, &words);
         assert_same(&found, &plain, name);
         assert_eq!(of_cache["taken"]["factor"].as_u64(), factors, "{name}: {of_cache}");
         assert_eq!(of_cache["taken"]["modes"], Value::Null, "{name}: {of_cache}");
         assert_eq!(of_cache["taken"]["count"], Value::Null, "{name}: {of_cache}");
         place.write(name, bytes);
     }
-    let (_, of_cache, _) = cached(&place, &words);
+    let (_, of_cache, _) = cached(place, &words);
     assert_eq!(of_cache["kept"], json!({}), "the first numbers again");
 }
 
