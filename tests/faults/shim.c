@@ -3,7 +3,7 @@
    FAULT_KIND    files: calls that change files in FAULT_FOLDER; heap: allocations of FAULT_LEAST bytes and more
    FAULT_AT      the call that fails, from 1; 0 for none
    FAULT_MODE    once: that call; from: that one and all later ones; exit: at that call the process calls exit(-1), as a library may;
-                 terminate: the call is made, and SIGTERM comes after it (files)
+                 terminate: the call is made, and SIGTERM comes after it, with time for whoever waits for that (files)
    FAULT_ERRNO   what it fails with (files)
    FAULT_COUNT   a file to which the number of calls is written when the process ends
 */
@@ -83,7 +83,7 @@ static int inside_fd(int fd) {
     int counted = (is_counted); \
     if (counted && fails()) { errno = error; return -1; } \
     __typeof__(call) done = (call); \
-    if (counted && terminates && n_calls == at) raise(SIGTERM); \
+    if (counted && terminates && n_calls == at) { kill(getpid(), SIGTERM); usleep(50000); } \
     return done; \
 }
 
