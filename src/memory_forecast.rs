@@ -27,8 +27,8 @@ const COPIES: u64 = 3;
 /// vectors take less than 100 MB.
 pub(crate) const TOGETHER_UP_TO: usize = 50_000;
 /// Blocks of all columns of the space in which the frequency response is found, in halves: the columns, what K and M make of them, both once
-/// more in a decomposition, and a copy while a column is added. Measured are 9 to 12 with 3,000 to 30,000 dofs and 12 to 294 interface dofs.
-const HALF_BLOCKS_OF_RESPONSE: u64 = 21;
+/// more in a decomposition, and a copy while a column is added. Measured are 8 to 11 with 3,000 to 120,000 dofs and 12 to 294 interface dofs.
+const HALF_BLOCKS_OF_RESPONSE: u64 = 19;
 /// Blocks of n_B columns that such a space takes on, where the interface has few dofs.
 pub(crate) const RESPONSE_BLOCKS: f64 = 6.0;
 /// Columns for each root of n_B that it takes on where there are some: unlike forces share their answers.
@@ -218,12 +218,15 @@ struct SearchSize {
     statics: Statics,
     n_modes: u64,
     at_once: u64,
+    /// Factors of K − σM that a search needs beside that of the interior, without an interface to hold the component.
+    n_shifted: u64,
     compared: Compared,
 }
 
 impl SearchSize {
     fn of((plan, compared): (&Plan, Compared), n_modes: u64, at_once: u64) -> Self {
-        Self { certify: plan.job().run.certify, statics: plan.statics(), n_modes, at_once, compared }
+        let n_shifted = u64::from(plan.is_free_without_interface());
+        Self { certify: plan.job().run.certify, statics: plan.statics(), n_modes, at_once, n_shifted, compared }
     }
 
     /// Bytes that the comparison with the full model holds of a model with so many entries in K and M: the searches under other boundaries,
@@ -265,7 +268,7 @@ impl Memory {
         let (n_other, n_copies) = match certify {
             // Those of K − σM and of the proof that it is definite.
             Certify::Full => (in_slices.max(2), 3),
-            Certify::None | Certify::Count => (in_slices, 2),
+            Certify::None | Certify::Count => (in_slices.max(search.n_shifted), 2),
         };
         let (n_other, refinement) = match storage {
             Storage::Double => (n_other, 0),

@@ -63,7 +63,7 @@ fn sum(content: &Content<'_>, made: Option<&Damping>, stored: &Mat<f64>) -> Chec
     if let Some(made) = made {
         for (i, j) in (0..stored.ncols()).flat_map(|j| (0..stored.nrows()).map(move |i| (i, j))) {
             let (difference, size) = ((stored[(i, j)] - made.matrix[(i, j)]).abs(), made.sizes[(i, j)]);
-            let error = if difference == 0.0 { 0.0 } else { difference / size };
+            let error = if difference <= made.left[(i, j)] { 0.0 } else { difference / size };
             if dense::worse(error, worst.0) {
                 worst = (error, Some(format!("{} and {}", content.name_of(i), content.name_of(j))));
             }

@@ -249,12 +249,19 @@ impl Truth<'_> {
         of_below.min(distance(above)).min(1.0)
     }
 
-    /// How far ρ may be from an eigenvalue by its residual, relative to it: δ/(1 − δ), or δ²/(γ − δ²) where its mode is known.
+    /// How far ρ may be from an eigenvalue by its residual, relative to it: δ/(1 − δ), or δ²/(γ − δ²) where its mode is known. A combination of
+    /// the modes of a cluster has a quotient between theirs: it is as far from one as that lies from it, and what the mode itself is known to.
     fn residual_bar(&self, claim: usize, cluster: Option<usize>, measured: &Measured) -> f64 {
         let (lambda, lacking) = (measured.lambda[claim], measured.lacking[claim]);
         // Of λ − σ and not of λ.
         let of_distance = |share: f64| share * ((lambda - self.sigma) / lambda).abs();
         let of_any = if lacking < 1.0 { lacking / (1.0 - lacking) } else { f64::INFINITY };
+        let several = cluster.map(|cluster| self.clusters[cluster].clone()).filter(|cluster| cluster.len() > 1);
+        if let Some(modes) = several {
+            let mode = nearest(self.lambda, modes, lambda);
+            let of_mode = self.completed.modes.errors[mode].residual_bar;
+            return of_distance(of_any).min(((lambda - self.lambda[mode]) / lambda).abs() + of_mode);
+        }
         let of_residual = match cluster {
             // With s the quotient, s_n its mode and β the neighbour on the other side, both less σ, Σ a_k² (s_k − s_n)(s_k − β)/s_k ≥ 0 over
             // all modes, none of which lies between (Temple): |s − s_n| ≤ s δ²/γ with β above, and s δ²/(γ − δ²) with β below.

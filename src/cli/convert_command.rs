@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::flags::ConvertFlags;
-use crate::conversion::Target;
+use crate::conversion::{LETTERS_OF_AN_OP4_NAME, Target};
 use crate::error::{Error, Result};
 use crate::input::SingleMatrix;
 
@@ -59,6 +59,11 @@ impl ConvertCommand {
         })?;
         if let Some(name) = name.as_ref().filter(|name| !is_name(name)) {
             let expected = "a letter, then letters, digits and underscores";
+            return Err(Error::FlagText { flag: "--name", text: name.clone(), expected });
+        }
+        let is_op4 = matches!(target, Target::Op4 | Target::Op4Binary);
+        if let Some(name) = name.as_ref().filter(|name| is_op4 && name.len() > LETTERS_OF_AN_OP4_NAME) {
+            let expected = "eight letters, digits and underscores at most, which is all that an OP4 file has room for";
             return Err(Error::FlagText { flag: "--name", text: name.clone(), expected });
         }
         let answer = if json { ConvertAnswer::Json } else { ConvertAnswer::Text };

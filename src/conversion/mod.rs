@@ -12,5 +12,6 @@ mod target;
 mod vtkhdf;
 
 pub use content::{Content, Shape};
+pub(crate) use op4::LETTERS_OF_AN_OP4_NAME;
 pub use target::Target;
 pub use vtkhdf::write_mesh;

@@ -23,7 +23,7 @@ const REAL_DOUBLE: usize = 2;
 /// Values in a line of text.
 const PER_LINE: usize = 3;
 /// Letters of a name.
-const NAME: usize = 8;
+pub(crate) const LETTERS_OF_AN_OP4_NAME: usize = 8;
 
 /// What stands in the head of a matrix and in those of its strings.
 struct Layout {
@@ -37,7 +37,7 @@ impl Layout {
     fn of(name: &str, matrix: &ByColumns<'_>) -> Self {
         let n = matrix.order();
         let form = if matrix.shape == Shape::Symmetric { SYMMETRIC } else { SQUARE };
-        let name = name.to_ascii_uppercase().chars().take(NAME).collect();
+        let name = name.to_ascii_uppercase().chars().take(LETTERS_OF_AN_OP4_NAME).collect();
         Self { n, form, is_big: n > MAX_PACKED_ROWS, name }
     }
 
@@ -108,7 +108,7 @@ pub(super) fn write_binary(name: &str, matrix: &ByColumns<'_>, out: &mut impl Wr
     let Layout { n, form, name, .. } = &layout;
     let mut head = words(&[*n, 0, *form, REAL_DOUBLE]);
     head[4..8].copy_from_slice(&(layout.rows() as i32).to_le_bytes());
-    head.extend(format!("{name:NAME$}").into_bytes());
+    head.extend(format!("{name:LETTERS_OF_AN_OP4_NAME$}").into_bytes());
     record(out, &head)?;
     for column in 0..*n {
         let strings = matrix.strings(column, LONGEST);

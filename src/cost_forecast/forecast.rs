@@ -109,9 +109,9 @@ fn file_bytes(plan: &Plan, partition: &Partition, sizes: &Sizes) -> u64 {
     let narrow = 2 * n_rigid + 3 + partition.loads.count() as u64;
     // A row, its node and direction, and the position of its node.
     let rows = partition.recovered.rows.len() as u64;
-    // What stored modes are of the named ones, unless all are those of the held interface or of a component without one.
+    // What stored modes are of the named ones, unless all are those of the held interface or of a held component without one.
     let are_others = sizes.n_answers > 0.0 || sizes.boundary != Boundary::FixedInterface;
-    let is_mixed = are_others && partition.n_interface() > 0;
+    let is_mixed = are_others && (partition.n_interface() > 0 || n_rigid > 0);
     let n_named = if is_mixed { (sizes.n_modes + sizes.n_answers) as u64 } else { 0 };
     DOUBLE * (n_matrices * r * r + n_named * n_named + narrow * r + partition.quantities.rows.len() as u64 * r)
         + rows * (of_a_row * r + 3 * DOUBLE)

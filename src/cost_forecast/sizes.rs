@@ -2,7 +2,7 @@
 
 use super::work::Work;
 use crate::factor::Analysis;
-use crate::job::{Boundary, Certify, Job, ModeSelection};
+use crate::job::{Boundary, Certify, Job, ModeSelection, Precision};
 use crate::partition::Partition;
 use crate::plan::{Mass, Modes, Plan, Statics};
 
@@ -12,6 +12,10 @@ const DOUBLE: f64 = 8.0;
 const ENTRY: f64 = 12.0;
 /// Right-hand sides that a solve and a product take at once.
 const BLOCK: f64 = 8.0;
+
+/// How often a solve reads both triangles of a factor in single precision until its answer is right, in bytes of one in double precision: four
+/// sweeps of half of them.
+const REFINED_SWEEPS: f64 = 2.0;
 
 /// How far modes are proved complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,6 +53,10 @@ pub struct Sizes {
     pub text_bytes: f64,
     /// The form of the constraint modes.
     pub statics: Statics,
+    /// How much more of the factor each solve reads than both triangles once: steps of refinement where it is kept in single precision.
+    pub sweeps: f64,
+    /// Whether nothing holds the component and it has no interface: K is singular then, and factors of K − σM stand in for its own.
+    pub is_free: bool,
     /// Whether an eigensolver runs.
     pub modes: Modes,
     /// Whether the mass is reduced.
@@ -75,6 +83,7 @@ impl Sizes {
             n_answers: (n_relief + n_residual + partition.expansion.count()) as f64,
             text_bytes: text_bytes as f64,
             statics: plan.statics(),
+            is_free: plan.is_free_without_interface(),
             modes: plan.modes(),
             mass: plan.mass(),
             ..Self::of_model(job, partition, analysis, n_modes)
@@ -97,6 +106,11 @@ impl Sizes {
             n_outputs: partition.outputs.len() as f64,
             text_bytes: 0.0,
             statics: Statics::Stored,
+            sweeps: match job.run.precision {
+                Precision::Mixed => REFINED_SWEEPS,
+                Precision::Double | Precision::Auto => 1.0,
+            },
+            is_free: false,
             modes: Modes::Computed,
             mass: Mass::Reduced,
             is_band: matches!(job.reduction.wanted(), ModeSelection::UpTo { .. }),
@@ -126,7 +140,7 @@ impl Sizes {
 
     /// Solves with so many right-hand sides, in blocks: L is read forward and backward for each.
     pub fn solves(&self, columns: f64) -> Work {
-        let solve_bytes = 2.0 * DOUBLE * self.factor_entries * (columns / BLOCK).ceil();
+        let solve_bytes = 2.0 * DOUBLE * self.factor_entries * self.sweeps * (columns / BLOCK).ceil();
         // Rows of the block are packed, unpacked and handed on.
         let product_bytes = 6.0 * DOUBLE * self.n_dofs * columns;
         Work { solve_bytes, product_bytes, ..Work::default() }

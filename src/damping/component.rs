@@ -24,6 +24,8 @@ pub struct Damping {
     pub stiffness_share: f64,
     /// What rounding may make of an entry, relative to its size.
     pub rounding: f64,
+    /// What rounding may leave of an entry whose terms cancel, r × r.
+    pub left: Mat<f64>,
     /// Whether it may resist rigid-body motion.
     pub rigid_motion: RigidMotionDamping,
 }
@@ -68,6 +70,7 @@ impl Damping {
     ) -> Result<Option<Self>> {
         let r = reduced.stiffness.nrows();
         let (mut matrix, mut sizes, mut is_there) = (Mat::zeros(r, r), Mat::zeros(r, r), false);
+        let mut left = Mat::zeros(r, r);
         for part in matrices {
             matrix += part;
             sizes += dense::absolute(part.as_ref());
@@ -78,6 +81,8 @@ impl Damping {
         if let Some(law) = law {
             let ends: Vec<f64> = law.sizes.iter().map(|size| size.max(0.0).sqrt()).collect();
             sizes += Mat::from_fn(r, r, |i, j| ends[i] * ends[j]);
+            let share = dense::NOISE_FACTOR * r as f64 * f64::EPSILON;
+            left = Mat::from_fn(r, r, |i, j| share * (law.terms[i] * law.terms[j]).sqrt());
             matrix += law.matrix;
             is_there = true;
         }
@@ -86,6 +91,6 @@ impl Damping {
         let rounding = rounding.min(LARGEST_ROUNDING);
         let rayleigh = job.damping.as_ref().and_then(|damping| damping.rayleigh);
         let (stiffness_share, rigid_motion) = (rayleigh.map_or(0.0, |rayleigh| rayleigh.stiffness), job.rigid_motion());
-        Ok(is_there.then(|| Self { matrix, sizes, stiffness_share, rounding, rigid_motion }))
+        Ok(is_there.then(|| Self { matrix, sizes, stiffness_share, rounding, left, rigid_motion }))
     }
 }

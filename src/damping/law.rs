@@ -32,6 +32,8 @@ pub(super) struct Law {
     pub(super) matrix: Mat<f64>,
     /// What entry (i, i) is a sum of, before rigid-body motion is taken from it.
     pub(super) sizes: Vec<f64>,
+    /// What entry (i, i) is a sum of before the terms of M̂Φ cancel, as they do where an interface dof moves the body as a whole.
+    pub(super) terms: Vec<f64>,
     /// The largest eigenvalue over the first elastic one where modes are damped, one elsewhere.
     pub(super) spread: f64,
 }
@@ -43,7 +45,12 @@ impl Law {
             return Ok(None);
         }
         let Reduced { stiffness: k, mass: m, .. } = reduced;
-        let mut law = Self { matrix: Mat::zeros(k.nrows(), k.nrows()), sizes: vec![0.0; k.nrows()], spread: 1.0 };
+        let mut law = Self {
+            matrix: Mat::zeros(k.nrows(), k.nrows()),
+            sizes: vec![0.0; k.nrows()],
+            terms: vec![0.0; k.nrows()],
+            spread: 1.0,
+        };
         if let Some(rayleigh) = job.rayleigh {
             let size = |i: usize| rayleigh.mass * m[(i, i)] + rayleigh.stiffness * k[(i, i)];
             law.sizes = (0..k.nrows()).map(size).collect();
@@ -77,6 +84,10 @@ impl Law {
         let damping = dense::product(weighted.as_ref(), momenta.transpose());
         self.sizes.iter_mut().enumerate().for_each(|(i, size)| *size += damping[(i, i)]);
         self.matrix += damping;
+        let moduli = dense::product(dense::absolute(reduced.mass).as_ref(), dense::absolute(shapes.as_ref()).as_ref());
+        for (i, terms) in self.terms.iter_mut().enumerate() {
+            *terms += factors.iter().enumerate().map(|(j, factor)| factor * moduli[(i, j)].powi(2)).sum::<f64>();
+        }
         if let (Some(first), Some(last)) = (lambda.first(), lambda.last()) {
             self.spread = last / first;
         }

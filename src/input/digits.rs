@@ -43,6 +43,9 @@ use crate::sparse::TripletBlocks;
 const DOUBLE_DIGITS: u32 = 17;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
+/// The same of modes. Eighths from −1 to 1 have seven different values below the highest decade; tenths of a largest value of one are as
+/// many as were rounded to a decimal.
+const MIN_DISTINCT_OF_MODES: usize = 8;
 /// Different last decimals of rounded values: 18 numbers without a pattern have fewer with a chance of one in ten thousand.
 const MIN_LAST_DECIMALS: usize = 6;
 
@@ -160,13 +163,14 @@ impl Digits {
 ///
 /// Looks at about 2000 values spread over the slice; zeros do not count.
 pub fn digits_of(values: &[f64]) -> Digits {
-    digits_of_sample(spread(values.len()).map(|at| values[at]))
+    digits_of_sample(spread(values.len()).map(|at| values[at]), MIN_DISTINCT_SHORT)
 }
 
-/// [`digits_of`] the values of columns that one program wrote: a column by itself may have too few different values to tell.
-pub(super) fn digits_of_columns(columns: &[Vec<f64>]) -> Digits {
+/// [`digits_of`] the values of modes that one program computed: one by itself may have too few different values to tell. Springs and lumped
+/// masses are short by design, and eigenvectors hardly ever are, so that fewer values tell.
+pub(super) fn digits_of_modes(columns: &[Vec<f64>]) -> Digits {
     let n = columns.first().map_or(0, Vec::len);
-    digits_of_sample(spread(n * columns.len()).map(|at| columns[at / n][at % n]))
+    digits_of_sample(spread(n * columns.len()).map(|at| columns[at / n][at % n]), MIN_DISTINCT_OF_MODES)
 }
 
 /// [`digits_of`] the values of entries in blocks.
@@ -174,16 +178,17 @@ pub(super) fn digits_of_blocks(entries: &TripletBlocks) -> Digits {
     let mut blocks = entries.blocks.iter();
     let (mut block, mut start): (&[f64], usize) = (&[], 0);
     // Positions rise, so that each block is gone into once.
-    digits_of_sample(spread(entries.len()).map(|at| {
+    let values = spread(entries.len()).map(|at| {
         while at - start >= block.len() {
             start += block.len();
             block = blocks.next().map_or(&[], |next| &next.values);
         }
         block[at - start]
-    }))
+    });
+    digits_of_sample(values, MIN_DISTINCT_SHORT)
 }
 
-fn digits_of_sample(values: impl Iterator<Item = f64>) -> Digits {
+fn digits_of_sample(values: impl Iterator<Item = f64>, least: usize) -> Digits {
     let counted = values.filter(|value| value.is_finite() && *value != 0.0);
     let sample: Vec<Sampled> = counted.map(Sampled::of).collect();
     if sample.is_empty() {
@@ -200,7 +205,7 @@ fn digits_of_sample(values: impl Iterator<Item = f64>) -> Digits {
     }
     let distinct: BTreeSet<Decimal> = sample.iter().map(|sampled| sampled.decimal).collect();
     let is_of_few = match digits {
-        _ if digits <= MAX_EXACT_DIGITS => is_rounded(&distinct, digits),
+        _ if digits <= MAX_EXACT_DIGITS => is_rounded(&distinct, digits, least),
         _ if digits <= MAX_DECIMAL_DIGITS => n_long(&distinct) >= MIN_DISTINCT && !is_exact(&distinct, digits),
         _ => false,
     };
@@ -233,8 +238,9 @@ fn n_long(distinct: &BTreeSet<Decimal>) -> usize {
 }
 
 /// Whether numbers of at most `digits` digits look rounded relative to their size: below the highest decade, too, most
-/// use all the digits. Of rounded numbers nine in ten do; numbers on a fixed grid have fewer the smaller they are.
-fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32) -> bool {
+/// use all the digits. Of rounded numbers nine in ten do; numbers on a fixed grid have fewer the smaller they are. There are to be
+/// `least` different ones.
+fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32, least: usize) -> bool {
     let top = distinct.last().map_or(0, |decimal| decimal.exponent);
     let lower: BTreeSet<(u64, u32)> = distinct
         .iter()
@@ -242,7 +248,7 @@ fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32) -> bool {
         .map(|decimal| (decimal.mantissa, decimal.n_digits))
         .collect();
     let n_full = lower.iter().filter(|(_, n_digits)| *n_digits == digits).count();
-    lower.len() >= MIN_DISTINCT_SHORT && 2 * n_full > lower.len()
+    lower.len() >= least && 2 * n_full > lower.len()
 }
 
 /// Decimals of values in fixed point that need `digits`; `relative` is what they are known to where they are not in fixed point.
@@ -389,6 +395,18 @@ mod tests {
         assert_ne!(digits_of(&[0.3333333, 0.5, 0.8333333, 1.0, 0.6666667, 1.3333333]), Digits::DOUBLE);
         let tenths: Vec<f64> = (0..20).map(|k| f64::from(12_345 + k * 70_001) / 10.0).collect();
         assert_eq!(digits_of(&tenths).decimals, Some(1));
+    }
+
+    /// Modes of a small symmetric part have few different values; a grid of eighths, or springs, are still exact.
+    #[test]
+    fn fewer_values_of_modes_tell() {
+        let lower =
+            [1.91e-12, 2.47e-12, 7e-12, 3.96e-11, 4.27e-11, 9.85e-10, 1.01e-9, 5.88e-4, 1.56e-3, 0.0954, 0.116, 0.212];
+        let mode = [&lower[..], &[1.0, -3.77, 2.08]].concat();
+        assert_eq!(digits_of(&mode), Digits::DOUBLE);
+        assert_eq!(digits_of_modes(&[mode[..7].to_vec(), mode[7..14].to_vec()]), Digits::relative(3));
+        let eighths: Vec<f64> = (-8..=8).map(|k| f64::from(k) / 8.0).collect();
+        assert_eq!(digits_of_modes(&[eighths, vec![2.0, -1.0, 0.5]]), Digits::DOUBLE);
     }
 
     #[test]

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::digits::{Digits, digits_of_columns};
+use super::digits::{Digits, digits_of_modes};
 use super::file_start::FileStart;
 use super::member::split_member;
 use super::mode_format::{ModeSource, ReadModes};
@@ -77,7 +77,7 @@ pub fn foreign_modes(path: &Path, rows: &ModeRows, allowance: &Allowance) -> Res
         }
     };
     let ReadModes { columns, values, program, digits, notes } = read;
-    let rounding = ModeRounding::of(digits.map_or_else(|| digits_of_columns(&columns), Digits::relative));
+    let rounding = ModeRounding::of(digits.map_or_else(|| digits_of_modes(&columns), Digits::relative));
     let is_along_rows = format.is_none_or(|format| format.along == Along::Rows);
     let turning = rows.turning.clone().filter(|_| is_along_rows);
     let values = values.map(|(unit, numbers)| ModeValues::new(unit, numbers));

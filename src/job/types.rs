@@ -32,7 +32,10 @@ use crate::sparse::Triangle;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "if" = { "required": ["scene"], "properties": { "scene": { "required": ["band_hz"] } } },
+    "if" = { "required": ["scene"], "properties": { "scene": { "anyOf": [
+        { "required": ["band_hz"] },
+        { "required": ["analysis"], "properties": { "analysis": { "const": "static" } } },
+    ] } } },
     "else" = { "properties": { "reduction": { "anyOf": [
         { "required": ["modes"] },
         { "properties": { "method": { "const": "guyan" } } },

@@ -93,6 +93,11 @@ impl Plan {
         self.facts.as_ref()
     }
 
+    /// Whether, as far as is known of the model, it has no interface and nothing holds it.
+    pub fn is_free_without_interface(&self) -> bool {
+        self.facts.as_ref().is_some_and(|facts| facts.n_interface == 0 && facts.n_rigid > 0)
+    }
+
     /// What the scene says of interface dofs, as far as this run heeds it; none where that is nothing.
     pub fn statements(&self) -> Option<&SceneJob> {
         self.statements.as_ref()

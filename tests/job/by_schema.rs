@@ -86,6 +86,11 @@ fn jobs() -> Vec<Value> {
     }
     jobs[3]["reduction"] = json!({ "method": "mixed-interface", "modes": { "count": 5 }, "held": ["hub", "hub.rx"] });
     jobs.push(of_file);
+    let mut of_statics = jobs[1].clone();
+    if let Value::Object(reduction) = &mut of_statics["reduction"] {
+        reduction.remove("modes");
+    }
+    jobs.push(of_statics);
     jobs.extend(regions().map(|region| {
         let hub = json!([{ "name": "hub", "nodes": { "within": region }, "coupling": "rigid", "origin": [0.25, 1.25, 2.25] }]);
         job(&hub, &json!({ "count": 5 }), &json!({ "within": { "sphere": { "center": [0.25, 1.25, 2.25], "radius": 0.25 } } }))

@@ -72,6 +72,36 @@ fn a_component_without_interface() {
     }
 }
 
+/// On a slider gravity leaves bending and torsion alone, whose modes are dropped, and the motion that is left deforms nothing: of the damping
+/// along it there is rounding, which is another one of the modes that are kept.
+#[test]
+fn modal_damping_on_a_slider() {
+    let place = Place::with(&brick([6, 2, 2], [0.6, 0.06, 0.06], &Material::STEEL_SI));
+    for ratio in [0.02, 0.3] {
+        let job = format!(
+            r#"
+model = {{ stiffness = "K.mtx", mass = "M.mtx", dofs = "dofs.txt", nodes = "nodes.csv" }}
+reduction = {{ method = "craig-bampton", modes = {{ count = 12 }} }}
+write = {{ superelement = "x.supel" }}
+damping = {{ modal = {{ ratio = {ratio} }} }}
+[[interface]]
+name = "a"
+nodes = [1, 8, 15, 22, 29, 36, 43, 50, 57]
+coupling = "rigid"
+[scene]
+grounded = ["a.ux", "a.uy", "a.rx", "a.ry", "a.rz"]
+gravity = [0, 0, -1]
+"#
+        );
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+        let report = place.report("x.report.json");
+        let dropped = report["body"]["reduction"]["dropped"].as_array().expect("a list").len();
+        assert!(dropped > 0, "{ratio}: every mode is seen");
+        passes(&place, "a slider");
+    }
+}
+
 /// Guyan's reduction: no mode at all.
 #[test]
 fn without_modes() {

@@ -34,15 +34,13 @@ impl fmt::Display for Advice {
         let twice = FREE_MODES * self.band_end_hz;
         let has_twice = self.are_free && self.kept_to_hz.is_some_and(|kept| kept >= twice);
         match self.modes_to_hz {
-            Some(hz) => {
-                write!(f, "; by how it falls, modes to about {} Hz would meet it", quantity(rounded_up(hz), 2))?
-            }
+            Some(hz) => write!(f, "; by how it falls, modes to about {} Hz may meet it", quantity(rounded_up(hz), 2))?,
             None if has_twice => f.write_str("; keep more modes")?,
             None if self.are_free => write!(f, "; keep modes to {} Hz, twice the band, or more", quantity(twice, 3))?,
             None => {}
         }
         if !self.are_free {
-            write!(f, "; so would, as a rule, `method = \"herting\"` with modes to {} Hz", quantity(twice, 3))?;
+            write!(f, "; so may `method = \"herting\"` with modes to {} Hz", quantity(twice, 3))?;
         }
         Ok(())
     }
@@ -119,9 +117,9 @@ mod tests {
         let advice = |modes_to_hz, kept_to_hz, are_free| {
             Advice { met: "x".to_owned(), modes_to_hz, kept_to_hz, band_end_hz: 100.0, are_free }.to_string()
         };
-        assert_eq!(advice(Some(512.0), Some(150.0), true), "x; by how it falls, modes to about 520 Hz would meet it");
+        assert_eq!(advice(Some(512.0), Some(150.0), true), "x; by how it falls, modes to about 520 Hz may meet it");
         assert_eq!(advice(None, Some(150.0), true), "x; keep modes to 200 Hz, twice the band, or more");
         assert_eq!(advice(None, Some(250.0), true), "x; keep more modes");
-        assert_eq!(advice(None, None, false), "x; so would, as a rule, `method = \"herting\"` with modes to 200 Hz");
+        assert_eq!(advice(None, None, false), "x; so may `method = \"herting\"` with modes to 200 Hz");
     }
 }

@@ -67,7 +67,7 @@ impl Boundary {
         let whose = match (mass, moments.is_empty()) {
             (Some(_), _) => "",
             (None, true) => ", that of the component itself",
-            (None, false) => ", those of the component itself",
+            (None, false) => ", that of the component itself and the mean of its moments",
         };
         let without = partition.internal_directions(&interface.name);
         let words: Vec<String> = without.iter().map(ToString::to_string).collect();

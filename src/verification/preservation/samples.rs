@@ -22,7 +22,9 @@ const SAME: f64 = 1e-9;
 pub(super) fn first(evidence: &Evidence<'_>, reduced: &Spectral, band_hz: [f64; 2]) -> Vec<f64> {
     let elastic = elastic_hz(evidence, reduced);
     let [low, high] = band_hz;
-    let start = if low > 0.0 { low } else { NEAR_ZERO * elastic.first().copied().unwrap_or(high).min(high) };
+    // Motions that cost no energy although no rigid-body motion is like them are at zero, or below it by a rounding.
+    let first = elastic.iter().copied().find(|hz| *hz > 0.0).unwrap_or(high);
+    let start = if low > 0.0 { low } else { NEAR_ZERO * first.min(high) };
     let step = |i: usize| start * (high / start).powf(i as f64 / (GRID - 1) as f64);
     let grid = (0..GRID).map(|i| if i == GRID - 1 { high } else { step(i) });
     let resonances = spread(elastic.into_iter().filter(|hz| (start..=high).contains(hz)).collect());

@@ -33,15 +33,30 @@ fn turned(all: &Pairs, (count, angle, digits): (usize, f64, usize)) -> Pairs {
     pairs
 }
 
-/// Every elastic pair has a mode of the model within its error bar, and what is missing is one.
+/// Every elastic pair has a mode of the model within its error bar, and what is missing is one. A dense decomposition knows eigenvalues to some ε of
+/// the largest one, 10⁷ times the first.
 #[track_caller]
 fn assert_true(found: &Value, all: &Pairs) {
     let nearest = |hertz: f64| all.hertz.iter().map(|mode| (mode - hertz).abs()).fold(f64::INFINITY, f64::min);
     for pair in found["pairs"].as_array().expect("pairs").iter().skip(6) {
         let [hertz, bar] = ["shape_hz", "error_bar_hz"].map(|key| pair[key].as_f64().expect(key));
-        assert!(nearest(hertz) <= bar + 1e-9 * hertz, "{hertz} ± {bar}, off by {}", nearest(hertz));
+        assert!(nearest(hertz) <= bar + 1e-8 * hertz, "{hertz} ± {bar}, off by {}", nearest(hertz));
     }
     missing(found).into_iter().for_each(|hertz| assert!(nearest(hertz) <= 1e-5 * hertz, "missing {hertz}"));
+}
+
+/// Modes of one cluster are one space, and any of its shapes are modes; the frequency of a combination lies between theirs all the same.
+#[test]
+fn a_combination_in_a_cluster_is_as_far_from_a_frequency_as_its_bar_says() {
+    for share in [1e-6, 2e-6, 4e-6] {
+        let model = oblong(share);
+        let all = lowest(&model, 12);
+        for angle in [0.03, 0.5, FRAC_PI_4] {
+            let result = turned(&all, (10, angle, 17));
+            let found = document(&place_of(&model, &result), "", ExitCode::Done);
+            assert_true(&found, &all);
+        }
+    }
 }
 
 #[test]

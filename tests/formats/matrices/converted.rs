@@ -86,6 +86,8 @@ fn names_and_rows_are_carried() {
         (vec!["convert", text(&out), "k.txt"], 2),
         (vec!["convert", text(&out), text(&out)], 2),
         (vec!["convert", text(&out), text(&bare), "--name", "1K"], 2),
+        // An OP4 file has room for eight letters.
+        (vec!["convert", text(&out), "k.op4", "--name", "KAA123456"], 2),
         (vec!["convert", "absent.op4:K", text(&bare)], 7),
     ] {
         assert_eq!(supel(&words).status.code(), Some(code), "{words:?}");

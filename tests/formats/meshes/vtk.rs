@@ -75,6 +75,23 @@ fn pieces_are_put_together() {
     assert_eq!((groups, group(&nodes, "side 8")), (vec!["side 7", "side 8"], vec![2, 3, 4]));
 }
 
+/// meshio joins names by hyphens. Where a name has one itself, or where two names were doubled, nothing tells whose number is which.
+#[test]
+fn joined_names_are_those_of_as_many_numbers() {
+    let groups_of = |name: &str, tags: &str| -> Vec<String> {
+        let head =
+            "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 2 0 0\n";
+        let cells = "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n3\n";
+        let array = format!("POINT_DATA 3\nSCALARS {name} int 1\nLOOKUP_TABLE default\n{tags}\n");
+        let nodes = read_text("a.vtk", format!("{head}{cells}{array}")).expect("a mesh");
+        nodes.groups.into_keys().collect()
+    };
+    assert_eq!(groups_of("HUB-FOOT", "-1 1 0"), ["FOOT", "HUB"]);
+    let apart = ["BOLT-HOLE-HUB 0", "BOLT-HOLE-HUB 1"];
+    assert_eq!(groups_of("BOLT-HOLE-HUB", "0 1 0"), apart);
+    assert_eq!(groups_of("AA-AAAA", "0 1 0"), ["AA-AAAA 0", "AA-AAAA 1"]);
+}
+
 #[test]
 fn wrong_grids_are_refused() {
     let head = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 2 float\n0 0 0 1 0 0\n";
