@@ -26,9 +26,6 @@ const SOFT: f64 = 1e-6;
 const SOFT_BY_DIGITS: f64 = 10.0;
 /// Rayleigh quotients up to this many bars are known to four digits at best.
 const KNOWN_BEYOND_BARS: f64 = 1e4;
-/// Rayleigh quotients up to this many ε times their terms may be zeros of the program that wrote K in double precision: a projection leaves
-/// thousands of roundings that its own terms do not show. Rounding to fewer digits afterwards adds its bar to that and no more.
-const ROUNDINGS_OF_THE_PRODUCER: f64 = 1e4;
 /// Modal mass of a motion of unit length, in the scales of the dofs, relative to the largest mass of a dof in them, below
 /// which the motion has no mass: the square of its rounding, with a factor of a hundred million.
 const NO_MASS: f64 = 1e-24;
@@ -114,10 +111,12 @@ pub fn with_mechanisms(
     for (j, (lambda, (error, terms))) in lambda.into_iter().zip(errors.iter().zip(terms)).enumerate() {
         let bar = error.data_bar * lambda.abs();
         let loose = |bar| Loose { lambda, bar, nodes: most_moved(partition, dense::column(motions.as_ref(), j)) };
-        if zero::is_zero(lambda, error.zero_level) || is_rounding(partition, constraint, (lambda, error.zero_level))? {
+        let is_left = zero::is_zero(lambda, error.zero_level) || zero::is_left_by_the_producer(lambda, terms);
+        let accepted = error.zero_level.max(zero::LEFT_BY_THE_PRODUCER * f64::EPSILON * terms);
+        if is_left || is_rounding(partition, (constraint, &rigid), (lambda, accepted))? {
             free.push(j);
             found.mechanisms.push(loose(error.zero_level));
-        } else if lambda <= ROUNDINGS_OF_THE_PRODUCER * f64::EPSILON * terms {
+        } else if lambda <= zero::LEFT_BY_THE_PRODUCER * f64::EPSILON * terms {
             found.grey.push(loose(bar));
         } else if lambda <= KNOWN_BEYOND_BARS * bar {
             found.uncertain.push(loose(bar));
@@ -132,7 +131,11 @@ pub fn with_mechanisms(
 }
 
 /// Whether a quotient below zero is rounding of the program that wrote K: where a count finds no eigenvalue below half of it.
-fn is_rounding(partition: &Partition, constraint: &ConstraintModes<'_>, (lambda, noise): (f64, f64)) -> Result<bool> {
+fn is_rounding(
+    partition: &Partition,
+    (constraint, rigid): (&ConstraintModes<'_>, &RigidBodyModes),
+    (lambda, noise): (f64, f64),
+) -> Result<bool> {
     if lambda > 0.0 {
         return Ok(false);
     }
@@ -141,7 +144,7 @@ fn is_rounding(partition: &Partition, constraint: &ConstraintModes<'_>, (lambda,
         0 => Ok(true),
         count => {
             // Beyond rounding it is no motion that should be free: the component buckles.
-            let error = match n_negative(partition, constraint)? {
+            let error = match n_negative(partition, constraint, rigid)? {
                 0 => Error::NegativeRigidEnergy { energy: lambda, noise, count },
                 count => Error::IndefiniteStiffness { count, boundary: "free" },
             };

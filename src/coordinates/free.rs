@@ -73,10 +73,11 @@ fn by_mass(mass: &Mat<f64>, moving: &Mat<f64>) -> Result<(Mat<f64>, Mat<f64>)> {
 
 /// How many cost no energy, each by its own rounding as in [`crate::rigid`].
 fn n_free(energies: &[Energy]) -> usize {
-    let [lambda, noise] =
-        [|of: &Energy| of.energy, |of: &Energy| of.noise].map(|of| energies.iter().map(of).collect::<Vec<f64>>());
-    let noise = zero::of_alike(&lambda, &noise);
-    lambda.iter().zip(noise).filter(|(energy, noise)| **energy <= FREE_BELOW_NOISE * noise).count()
+    let of = |which: fn(&Energy) -> f64| energies.iter().map(which).collect::<Vec<f64>>();
+    let [lambda, noise, terms] = [of(|of| of.energy), of(|of| of.noise), of(|of| of.terms)];
+    let levels: Vec<f64> = zero::of_alike(&lambda, &noise).into_iter().map(|noise| FREE_BELOW_NOISE * noise).collect();
+    let levels = zero::raised(&lambda, &levels, &terms);
+    lambda.iter().zip(levels).filter(|(energy, level)| **energy <= *level).count()
 }
 
 /// What a motion costs.
@@ -84,6 +85,8 @@ struct Energy {
     energy: f64,
     /// What rounding of the data can make of it.
     noise: f64,
+    /// |c|ᵀ|K||c|.
+    terms: f64,
 }
 
 /// What some directions cost, combined so that none shares energy with another.
@@ -97,6 +100,9 @@ fn energies(motions: &Motions<'_>, directions: &Mat<f64>, energy: &Mat<f64>, ter
     };
     // A combination of six carries the rounding of the largest energy: a motion along guides has no terms of its own.
     let of_combining = f64::EPSILON * energies.iter().fold(0.0, |max: f64, energy| max.max(energy.abs()));
-    let of = |(k, energy)| Energy { energy, noise: motions.rounding() * terms_of(k) + of_combining };
+    let of = |(k, energy)| {
+        let terms = terms_of(k);
+        Energy { energy, noise: motions.rounding() * terms + of_combining, terms }
+    };
     Ok(energies.into_iter().enumerate().map(of).collect())
 }

@@ -96,7 +96,8 @@ pub fn shifted<'a>(
         // Nearer than where K − σM was not definite there is nothing.
         let settled = suited.is_none_or(|suited| WINDOW.contains(&(-sigma / suited)) || suited <= too_near);
         if settled || round == MAX_ROUNDS {
-            if !rounding.is_coarse() || n_zero > problem.n_free {
+            // Those that are known to be free have been judged, by their own energies.
+            if n_zero > problem.n_free {
                 refuse_negative(analysis, problem, (&lowest, first_elastic))?;
             }
             return Ok(Shifted { factor, sigma, lowest, n_zero, n_factorisations: round + n_retreats + n_wider });
@@ -118,11 +119,12 @@ pub(crate) fn first_shift(problem: ModalProblem<'_>) -> f64 {
 fn zero_first(lowest: Modes) -> (Modes, usize) {
     let floors: Vec<f64> = lowest.errors.iter().map(|error| error.rounding_floor).collect();
     let floors = zero::of_alike(&lowest.lambda, &floors);
+    let levels: Vec<f64> = lowest.errors.iter().map(|error| error.zero_level).collect();
+    let terms: Vec<f64> = lowest.lambda.iter().zip(&lowest.errors).map(terms_of).collect();
+    let levels = zero::raised(&lowest.lambda, &levels, &terms);
     let is_zero = |j: usize| {
         let lambda = lowest.lambda[j];
-        lambda <= 0.0
-            || zero::is_zero(lambda, lowest.errors[j].zero_level)
-            || zero::is_zero(lambda, zero::level(0.0, 0.0, floors[j]))
+        lambda <= 0.0 || zero::is_zero(lambda, levels[j]) || zero::is_zero(lambda, zero::level(0.0, 0.0, floors[j]))
     };
     let (zero, others): (Vec<usize>, Vec<usize>) = (0..lowest.count()).partition(|j| is_zero(*j));
     let n_zero = zero.len();
@@ -134,6 +136,11 @@ fn zero_first(lowest: Modes) -> (Modes, usize) {
         ..lowest
     };
     (sorted, n_zero)
+}
+
+/// |x|ᵀ|K||x| of a mode of unit modal mass, from its cancellation: next to those of a rigid-body motion the terms of its inertia are nothing.
+fn terms_of((lambda, error): (&f64, &ModeError)) -> f64 {
+    error.cancellation * lambda.abs()
 }
 
 /// The least −σ with which rounding of the zero modes leaves K − σM definite.
@@ -155,7 +162,10 @@ fn refuse_negative(
     (modes, first_elastic): (&Modes, Option<f64>),
 ) -> Result<()> {
     let is_noise = |lambda: f64, error: &ModeError| {
-        lambda >= 0.0 || zero::is_zero(lambda, error.zero_level) || zero::is_negligible(lambda, first_elastic)
+        lambda >= 0.0
+            || zero::is_zero(lambda, error.zero_level)
+            || zero::is_negligible(lambda, first_elastic)
+            || zero::is_left_by_the_producer(lambda, terms_of((&lambda, error)))
     };
     let mut pairs = modes.lambda.iter().zip(&modes.errors);
     let Some((energy, _)) = pairs.find(|(lambda, error)| !is_noise(**lambda, error)) else { return Ok(()) };

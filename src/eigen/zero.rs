@@ -16,6 +16,8 @@
 //!
 //! The program that made K in double precision left some roundings in each entry. Where entries are differences of larger numbers, as
 //! in a matrix that was itself projected, the roundings are relative to the norm of K and not to the entries: that is N_f.
+//!
+//! Where it left more than that, a motion below zero shows how much, and the levels of all are [`raised`] by it.
 
 /// Share of N_d up to which a motion is zero.
 const SHARE_OF_BOUND: f64 = 0.75;
@@ -24,6 +26,11 @@ const ROUNDINGS_OF_THE_PRODUCER: f64 = 10.0;
 /// Share of the first elastic eigenvalue that a negative one may have: by practice a component is free whose rigid-body frequencies
 /// stay below a ten-thousandth of the first elastic one, and what is below zero by no more is rounding of the program that wrote K.
 const NEGLIGIBLE: f64 = 1e-8;
+
+/// Energies below zero up to this many ε times their terms are roundings of the program that wrote K in double precision: a projection
+/// leaves thousands of roundings that its own terms do not show, and so does a text of three or four digits less than doubles have. Rounding to
+/// fewer digits afterwards adds its bar to that and no more.
+pub(crate) const LEFT_BY_THE_PRODUCER: f64 = 1e4;
 
 /// Eigenvalues up to this multiple of one that is rounding are rounding of the same size, and what their modes are is left to
 /// it: each may carry as much as any other.
@@ -42,6 +49,29 @@ pub(crate) fn of_alike(lambda: &[f64], rounding: &[f64]) -> Vec<f64> {
         alike.fold(*own, |max, (_, rounding)| max.max(*rounding))
     };
     pairs().map(largest).collect()
+}
+
+/// Whether an energy below zero, with `terms` |x|ᵀ|K||x|, is no more than the program that wrote K may have left of none.
+pub(crate) fn is_left_by_the_producer(energy: f64, terms: f64) -> bool {
+    energy < 0.0 && -energy <= LEFT_BY_THE_PRODUCER * f64::EPSILON * terms
+}
+
+/// The largest share of its terms that an energy has which is below zero by more than its own level, and by no more than the program that
+/// wrote K may have left: what its roundings are shown to be. Zero where nothing is below zero but by rounding of its own terms.
+pub(crate) fn shown_below_zero(energies: &[f64], levels: &[f64], terms: &[f64]) -> f64 {
+    let all = energies.iter().zip(levels).zip(terms);
+    let shown =
+        all.filter(|((energy, level), terms)| **energy < -**level && is_left_by_the_producer(**energy, **terms));
+    shown.map(|((energy, _), terms)| -energy / terms).fold(0.0, f64::max)
+}
+
+/// Levels of some motions, raised by what energies below zero show of the roundings in K: no elastic structure has such an energy, and what
+/// rounding puts so far below zero it may put as far above it, give or take [`ALIKE`].
+pub(crate) fn raised(energies: &[f64], levels: &[f64], terms: &[f64]) -> Vec<f64> {
+    let share = ALIKE * shown_below_zero(energies, levels, terms);
+    // Nothing is raised where nothing is shown, whatever the terms are.
+    let raise = |(level, terms): (&f64, &f64)| if share > 0.0 { level.max(share * terms) } else { *level };
+    levels.iter().zip(terms).map(raise).collect()
 }
 
 /// Whether a Rayleigh quotient is zero at a level; a motion without energy and mass, 0/0, is.
@@ -65,6 +95,17 @@ mod tests {
         assert!(is_zero(0.7, level(1.0, 0.0, 0.0)) && is_zero(-0.7, level(1.0, 0.0, 0.0)));
         // A motion without energy and mass.
         assert!(is_zero(f64::NAN, f64::NAN));
+    }
+
+    #[test]
+    fn energies_below_zero_show_what_those_above_may_be() {
+        let (levels, terms) = ([1e-16; 3], [1.0; 3]);
+        // Below zero by 10⁻¹³ of the terms: what is above by less than ten times that is rounding too.
+        assert_eq!(raised(&[-1e-13, 5e-13, 1.0], &levels, &terms), [1e-12; 3]);
+        // Springs alone show nothing, nor does what rounding of the terms explains, nor what no program leaves.
+        for energies in [[1e-13, 5e-13, 1.0], [-1e-17, 5e-13, 1.0], [-1e-10, 5e-13, 1.0]] {
+            assert_eq!(raised(&energies, &levels, &terms), levels);
+        }
     }
 
     #[test]

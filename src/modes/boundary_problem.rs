@@ -98,11 +98,13 @@ impl<'a> BoundaryProblem<'a> {
         if residual <= MAX_RESIDUAL_OF_CLAMPED_FACTOR {
             // K of few digits makes forces of rigid-body motion, and so do roundings of penalties that tie dofs: modes of the operator
             // as it is would be those of another K by as much.
-            let solved = match residual > CARRIES_NOTHING {
-                true => solve(&RefinedAtZero::new(&operator, rigid)),
-                false => solve(&operator),
-            };
-            return Ok((solved?, 0));
+            if residual <= CARRIES_NOTHING {
+                return Ok((solve(&operator)?, 0));
+            }
+            // They may be little next to all forces and not next to those of a motion as soft as a joint.
+            if let Some(refined) = RefinedAtZero::new(&operator, rigid, self.modal().mass) {
+                return Ok((solve(&refined)?, 0));
+            }
         }
         self.with_operator_below(solve)
     }

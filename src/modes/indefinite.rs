@@ -15,8 +15,8 @@ use crate::error::{Error, Result};
 /// [`Error::IndefiniteStiffness`].
 pub(super) fn refuse(component: Component<'_>) -> Result<()> {
     // Where the interface holds nothing, a factor below zero says it while the modes are looked for.
-    let Component { partition, constraint: Some(constraint), .. } = component else { return Ok(()) };
-    match n_negative(partition, constraint)? {
+    let Component { partition, constraint: Some(constraint), rigid, .. } = component else { return Ok(()) };
+    match n_negative(partition, constraint, rigid)? {
         0 => Ok(()),
         count => Err(Error::IndefiniteStiffness { count, boundary: "free" }),
     }

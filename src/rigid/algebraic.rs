@@ -123,7 +123,7 @@ impl Recorded for ZeroModes {
 const COUNTED_BELOW: f64 = 1e-4;
 
 /// What few digits leave of the first eigenvalue above the zero ones.
-fn bar_of_digits(partition: &Partition, found: &Shifted<'_>) -> f64 {
+pub(crate) fn bar_of_digits(partition: &Partition, found: &Shifted<'_>) -> f64 {
     match (found.lowest.errors.get(found.n_zero), found.lowest.next) {
         _ if !partition.has_few_digits() => 0.0,
         (Some(error), _) => error.data_bar,
@@ -133,9 +133,14 @@ fn bar_of_digits(partition: &Partition, found: &Shifted<'_>) -> f64 {
     }
 }
 
+/// Whether the bar of the first eigenvalue that seems to be none of a motion without energy is too large for a count of these.
+pub(crate) fn is_uncounted(bar: f64) -> bool {
+    bar > COUNTED_BELOW
+}
+
 /// An error where motions seem to cost no energy, and the next one is known to too large a share of its eigenvalue, `bar`.
 pub(crate) fn refuse_uncounted(rounding: Rounding, n_zero: usize, bar: f64) -> Result<()> {
-    if bar <= COUNTED_BELOW {
+    if !is_uncounted(bar) {
         return Ok(());
     }
     let known = 0.5 * bar;

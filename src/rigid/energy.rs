@@ -25,14 +25,31 @@ pub(crate) fn zero_energy(partition: &Partition, x: MatRef<'_, f64>, terms: MatR
     zero_energies(partition, x, terms).into_iter().fold(0.0, f64::max)
 }
 
-/// What few digits of K, or roundings of it that rigid patches hide, can make of the energy of a rigid-body motion of unit modal mass.
+/// What few digits of K, roundings of it that rigid patches hide, or those that motions below zero show, can make of the energy of a rigid-body
+/// motion of unit modal mass.
 pub(crate) fn noise_of_digits(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
     let of_patches = partition.patch_terms(rigid.massive()).into_iter().fold(0.0, f64::max);
     let of_digits = match partition.has_few_digits() {
         true => partition.energy_noise(rigid.massive()).into_iter().fold(0.0, f64::max),
         false => 0.0,
     };
-    of_digits.max(f64::EPSILON * of_patches)
+    let (share, sizes) = shown_and_sizes(partition, rigid);
+    let shown = share * sizes.into_iter().fold(0.0, f64::max);
+    of_digits.max(f64::EPSILON * of_patches).max(shown)
+}
+
+/// What rigid-body motions below zero show of the roundings in K, relative to its terms; see [`zero::shown_below_zero`].
+pub(crate) fn shown_below_zero(partition: &Partition, rigid: &RigidBodyModes) -> f64 {
+    shown_and_sizes(partition, rigid).0
+}
+
+/// That share, and |q|ᵀ|K||q| of the motions.
+fn shown_and_sizes(partition: &Partition, rigid: &RigidBodyModes) -> (f64, Vec<f64>) {
+    let motions = rigid.massive();
+    let (forces, terms) = product_and_terms(&partition.stiffness, motions);
+    let (energies, sizes) = (dense::dots(motions, forces.as_ref()), energies_of_terms(motions, terms.as_ref()));
+    let share = zero::shown_below_zero(&energies, &zero_energies(partition, motions, terms.as_ref()), &sizes);
+    (share, sizes)
 }
 
 /// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.

@@ -322,6 +322,7 @@ impl Energies {
         let sizes = energies_of_terms(motions.as_ref(), terms.as_ref());
         let energies = dense::dots(motions.as_ref(), forces.as_ref());
         let zero = zero::of_alike(&energies, &zero_energies(partition, motions.as_ref(), terms.as_ref()));
+        let zero = zero::raised(&energies, &zero, &sizes);
         let noise = sizes.iter().map(|size| noise_share(partition) * size).collect();
         Ok(Self { motions, energies, noise, zero })
     }
@@ -339,6 +340,8 @@ impl Energies {
     /// An error where one of unit modal mass has negative energy.
     fn refuse_negative(&self, partition: &Partition) -> Result<()> {
         let Some(j) = (0..self.energies.len()).find(|j| self.energies[*j] < -self.zero[*j]) else { return Ok(()) };
-        refuse_negative(partition, self.energies[j], self.noise[j])
+        // What is told is what would have been accepted: at least what the program that wrote K may leave.
+        let at_least = zero::LEFT_BY_THE_PRODUCER * f64::EPSILON / noise_share(partition);
+        refuse_negative(partition, self.energies[j], self.noise[j] * at_least.max(1.0))
     }
 }

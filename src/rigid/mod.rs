@@ -23,8 +23,10 @@ mod rigid_body_modes;
 mod shift;
 
 pub use algebraic::from_matrices;
-pub(crate) use algebraic::{ZeroModes, found_zero_modes, lost_interface, refuse_uncounted, zero_modes};
-pub(crate) use energy::{largest_residual, noise_of_digits, zero_energy};
+pub(crate) use algebraic::{
+    ZeroModes, bar_of_digits, found_zero_modes, is_uncounted, lost_interface, refuse_uncounted, zero_modes,
+};
+pub(crate) use energy::{largest_residual, noise_of_digits, shown_below_zero, zero_energy};
 pub use facts::facts;
 pub(crate) use geometric::{moving_directions, settled};
 pub use of_partition::{counted_by_matrices, from_coordinates, rigid_body_modes};

@@ -8,7 +8,7 @@ use super::check::{Check, Limits, MAX_EXCUSE};
 use super::conditioning::{Columns, independence};
 use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
 use super::limits::{self, HARMLESS_COUPLING, Judged};
-use super::rigid_motion::energy_limits;
+use super::rigid_motion::{energy_limits, named_by_digits};
 use super::spectrum::{Spectrum, zero_level};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{Modes, REPEATED_WITHIN};
@@ -234,7 +234,7 @@ pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Chec
         true => (mass, of_mass, "mass", spectrum.lowest_mass.1),
         false => (stiffness, of_stiffness, "stiffness", spectrum.softest),
     };
-    Check {
+    let check = Check {
         id: "M-25",
         name: "reduced mass and stiffness are not negative",
         equation: "max(0, −λ_min(K̂, M̂)) / λ of the first elastic mode, max(0, −λ_min) of M̂ with unit diagonal",
@@ -242,5 +242,9 @@ pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Chec
         limits,
         fail_above,
         worst: (value != 0.0).then(|| format!("{which}, {}", coordinate_name(evidence, at))),
+    };
+    match first.filter(|_| !is_mass) {
+        Some(first) => named_by_digits(evidence, first, check),
+        None => check,
     }
 }

@@ -35,7 +35,25 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
     };
     let judged = energy_limits(evidence, spectrum);
     let value = energy.largest_quotient / first;
-    Check { value, limits: judged.limits, fail_above: judged.fail_above, ..check }
+    let check = Check { value, limits: judged.limits, fail_above: judged.fail_above, ..check };
+    named_by_digits(evidence, first, check)
+}
+
+/// A check of the energy of rigid-body motion relative to the first elastic one, or of its force, that says so where it is past its limit and
+/// what few digits make of that energy explains its value.
+pub(super) fn named_by_digits(evidence: &Evidence<'_>, first: f64, check: Check) -> Check {
+    if check.value <= check.limits.value() || !are_explained_by_digits(evidence, first, check.value) {
+        return check;
+    }
+    let words = "by the digits of the stiffness; write it with more";
+    let worst = check.worst.map_or_else(|| words.to_owned(), |worst| format!("{worst}, {words}"));
+    Check { worst: Some(worst), ..check }
+}
+
+/// Whether few digits of K make as much of the energies of rigid-body motion, relative to the first elastic one.
+fn are_explained_by_digits(evidence: &Evidence<'_>, first: f64, energy: f64) -> bool {
+    let noise = NOISE_FACTOR * energy_noise(evidence, first) * share_of_data(evidence.partition);
+    evidence.partition.has_few_digits() && energy <= noise
 }
 
 /// Limits of an energy that should be zero. They come from the error bars of the modes and from what few digits make of rigid-body motion
@@ -157,7 +175,8 @@ pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Chec
     let Disturbance { first, noise, share_of_data } = Disturbance::of(evidence, spectrum)?;
     let judged = limits::of_force(noise, share_of_data);
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
-    Ok(force::of_rigid_motion(evidence.reduction.pencil(), first, judged, &name))
+    let check = force::of_rigid_motion(evidence.reduction.pencil(), first, judged, &name);
+    Ok(if spectrum.first_elastic().is_some() { named_by_digits(evidence, first, check) } else { check })
 }
 
 /// What disturbs forces of rigid-body motion.
@@ -210,7 +229,16 @@ pub(super) fn zero_modes(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check 
         fail_above: 0.0,
         worst: Some({
             let n_r = evidence.rigid.count();
-            format!("{} zero modes, {n_r} rigid-body modes", n_r + spectrum.n_others - spectrum.n_held)
+            let found = format!("{} zero modes, {n_r} rigid-body modes", n_r + spectrum.n_others - spectrum.n_held);
+            let energy =
+                |first: f64| spectrum.rigid().iter().fold(0.0, |max: f64, energy| max.max(energy.abs())) / first;
+            let of_digits = |first: &f64| are_explained_by_digits(evidence, *first, energy(*first));
+            match spectrum.first_elastic().filter(of_digits) {
+                Some(_) if spectrum.n_held > 0 => {
+                    format!("{found}, as such motion costs energy by the digits of the stiffness; write it with more")
+                }
+                _ => found,
+            }
         }),
     }
 }

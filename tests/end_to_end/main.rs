@@ -8,6 +8,7 @@ mod failures;
 mod few_digits;
 mod fixed_point;
 mod foreign_names;
+mod left_by_the_producer;
 mod links;
 mod macneal;
 mod methods;

@@ -7,7 +7,7 @@ use crate::eigen::{ModalProblem, Shifted, shifted, zero};
 use crate::error::Result;
 use crate::factor::{Analysis, Cholesky};
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, RigidEnergy, RigidSource};
+use crate::rigid::{self, RigidBodyModes, RigidEnergy, RigidSource};
 use crate::sparse::{SparseMatrix, diagonal, product};
 
 /// The full model with a factor of K − σM on all dofs.
@@ -25,6 +25,8 @@ pub(super) struct Full<'a> {
     pub(super) first: f64,
     /// What roundings of K leave of an energy, relative to that: how far they turn motions towards each other.
     pub(super) noise: f64,
+    /// Whether K has more zero modes than the coordinates tell: those of mechanisms, which the reduction knows by its interface.
+    pub(super) has_mechanisms: bool,
 }
 
 impl<'a> Full<'a> {
@@ -37,12 +39,15 @@ impl<'a> Full<'a> {
         let problem = ModalProblem { stiffness: (&pinned).into(), ..partition.free_problem() };
         let problem = problem.knowing_free(by_coordinates(given));
         let found = shifted(analysis, problem, &|dof| partition.name_of(dof))?;
-        let n_zero = confirmed(&found, given);
+        let n_zero = confirmed(partition, &found, given);
         let (shapes, elastic) = found.lowest.shapes.as_ref().split_at_col(n_zero);
         let (shapes, elastic) = (shapes.to_owned(), elastic.to_owned());
         let first = found.lowest.lambda[n_zero..].iter().copied().reduce(f64::min).or(found.lowest.next).unwrap_or(1.0);
         let looked_at = &found.lowest.errors[..found.lowest.count().min(n_zero + 1)];
-        let noise = looked_at.iter().map(|error| error.zero_level / first).fold(0.0, f64::max);
+        // What zero modes cost all the same shows roundings that the digits of K do not.
+        let costs = found.lowest.lambda[..n_zero].iter().map(|lambda| lambda.abs());
+        let noise =
+            looked_at.iter().map(|error| error.zero_level).chain(costs).map(|level| level / first).fold(0.0, f64::max);
         let shapes = dense::side_by_side(shapes.as_ref(), given.massless());
         let zero = RigidBodyModes {
             modes: shapes.clone(),
@@ -53,7 +58,8 @@ impl<'a> Full<'a> {
             energy: RigidEnergy { angle: noise, ..RigidEnergy::default() },
             ..RigidBodyModes::none(partition.n_dofs())
         };
-        Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, elastic, first, noise })
+        let has_mechanisms = (1..n_zero).contains(&by_coordinates(given));
+        Ok(Self { partition, factor: found.factor, sigma: found.sigma, zero, elastic, first, noise, has_mechanisms })
     }
 }
 
@@ -86,7 +92,7 @@ fn by_coordinates(given: &RigidBodyModes) -> usize {
 /// is what the motions of the coordinates are held to. Modes beyond those of the coordinates that only rounding of their neighbours
 /// makes zero are elastic: where ties of 10⁹ times the stiffness hide half the digits, the soft ones cannot be told by their neighbours. So are
 /// those above an elastic one that is none by its own level: of soft rotations few digits may leave no frequency.
-fn confirmed(found: &Shifted<'_>, given: &RigidBodyModes) -> usize {
+fn confirmed(partition: &Partition, found: &Shifted<'_>, given: &RigidBodyModes) -> usize {
     let n_given = by_coordinates(given);
     if (1..found.n_zero).contains(&n_given) {
         let beyond = n_given..found.n_zero;
@@ -95,7 +101,10 @@ fn confirmed(found: &Shifted<'_>, given: &RigidBodyModes) -> usize {
             let lambda = found.lowest.lambda[j];
             lambda > known || !zero::is_zero(lambda, found.lowest.errors[j].zero_level)
         };
-        return if beyond.into_iter().all(is_elastic) { n_given } else { found.n_zero };
+        // Few digits that leave the next mode open count no mechanism: a reduction does not either, and takes K as it is.
+        let are_elastic =
+            rigid::is_uncounted(rigid::bar_of_digits(partition, found)) || beyond.into_iter().all(is_elastic);
+        return if are_elastic { n_given } else { found.n_zero };
     }
     if n_given <= found.n_zero || n_given > found.lowest.count() {
         return found.n_zero;
