@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
-use super::mended::{Mended, apart, mended};
+use super::mended::{Mended, apart, first_rounded, mended};
 use super::motions::{AXES, FIVE_DIGITS, Motions, SIX_DIGITS};
-use super::nodes::FIRST_ROTATION;
+use super::nodes::{FIRST_ROTATION, TOUCHED};
 use super::zeros::{Whole, Zeros, n_loose_rows};
 use crate::dofs::Direction;
 use crate::error::{Error, ErrorClass, Result};
@@ -63,7 +63,7 @@ pub(super) fn settled(
         true => {
             let noise = case.free.iter().fold(0.0, |max: f64, free| max.max(free.noise));
             match whole.counted(noise)? {
-                Some(n_zero) if n_zero <= n_explained => Ok(CoordinateFit::Exact),
+                Some(n_zero) if n_zero <= n_explained && !case.may_be_turned(n_zero) => Ok(CoordinateFit::Exact),
                 _ => match whole.zeros() {
                     Ok(zeros) => case.supports(&zeros),
                     Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Unknown),
@@ -85,7 +85,7 @@ pub(super) fn with_axes_as_known(motions: &Motions<'_>, doubts: &[Doubt]) -> Res
     }
     let free = Free::of_all(motions)?;
     match Whole::of(motions).zeros() {
-        Ok(zeros) => Ok(CoordinateFit::Rounded(mended(motions, &free, &zeros, (None, &|_| false))?.coordinates)),
+        Ok(zeros) => Ok(CoordinateFit::Rounded(mended(motions, &free, &zeros, (None, &|_| false, 0))?.coordinates)),
         Err(error) if is_of_the_arithmetic(&error) => Ok(CoordinateFit::Exact),
         Err(error) => Err(error),
     }
@@ -129,15 +129,19 @@ impl Case<'_> {
                 || n_touched == 0
                 || zeros.n_rigid(motions, doubts)? > self.n_explained);
         if !is_unexplained {
-            if have_axes {
-                self.refuse_apart(zeros, &(0..ALL_MOTIONS))?;
-            }
-            // What is off by no more than the decimals of the axes is mended as they are.
-            return match zeros.count() == self.n_moving()
-                && zeros.count() > self.n_explained
-                && motions.has_rounded_axes()
-            {
-                true => Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, (None, &|_| false))?.coordinates)),
+            let apart = if have_axes { self.refuse_apart(zeros, &(0..ALL_MOTIONS))? } else { 0.0 };
+            // What is off by no more than the decimals of the axes is mended as they are, and so is what six digits of axes leave. Springs to
+            // the ground leave rows along their axes.
+            let is_rounded = apart > TOUCHED && zeros.turn <= SIX_DIGITS;
+            let is_off = zeros.count() == self.n_moving() && (zeros.count() > self.n_explained || is_rounded);
+            let misfit = match motions.has_rounded_axes() {
+                true => None,
+                false => Some(self.misfit_of_axes(worst, cost)),
+            };
+            return match is_off && (is_rounded || misfit.is_none()) {
+                true => {
+                    Ok(CoordinateFit::Rounded(mended(motions, &self.free, zeros, (misfit, &|_| false, 0))?.coordinates))
+                }
                 false => Ok(CoordinateFit::Exact),
             };
         }
@@ -155,6 +159,25 @@ impl Case<'_> {
         Err(error)
     }
 
+    /// Whether rows that translations make forces at may lie along axes of their own: nothing holds the bodies as far as energies tell, and
+    /// forces tell twice as many digits, where K has them all.
+    fn may_be_turned(&self, n_zero: usize) -> bool {
+        let is_touched = self.doubts.iter().any(|doubt| doubt.n_touched > 0);
+        is_touched && n_zero == self.n_moving() && !self.motions.model.precision.stiffness.is_coarse()
+    }
+
+    /// The rotation that costs most by rows along other axes than the map says.
+    fn misfit_of_axes(&self, worst: &Doubt, Cost { energy, of, .. }: Cost) -> Misfit {
+        let (motions, body) = (self.motions, &self.motions.bodies[worst.body]);
+        let share = |rotation: &usize| {
+            let (energy, terms) = motions.energy(body, *rotation);
+            if terms > 0.0 { energy / terms } else { 0.0 }
+        };
+        let costliest = (FIRST_ROTATION..ALL_MOTIONS).max_by(|a, b| share(a).total_cmp(&share(b)));
+        let rotation = costliest.unwrap_or(FIRST_ROTATION);
+        Misfit { rotation: AXES[rotation % 3], energy, of, at: Place::of(motions, &body.rows, &[rotation]).at }
+    }
+
     /// Motions of all bodies that move a dof.
     fn n_moving(&self) -> usize {
         self.free.iter().map(|free| free.n_moving).sum()
@@ -162,17 +185,18 @@ impl Case<'_> {
 
     /// Where nothing holds the bodies, as many motions cost nothing as they have and no other, and rows that feel translations are along other
     /// axes than the map says, unless the job says that mechanisms are meant. Springs to the ground that are nothing next to the stiffness
-    /// leave the motions as they are.
-    fn refuse_apart(&self, zeros: &Zeros, looked_at: &Range<usize>) -> Result<()> {
+    /// leave the motions as they are. How far the worst row moves otherwise, by no more than digits explain; zero where nothing is compared.
+    fn refuse_apart(&self, zeros: &Zeros, looked_at: &Range<usize>) -> Result<f64> {
         let n_moving = self.n_moving();
-        if zeros.count() != n_moving || n_moving == self.n_explained || self.mechanisms == Mechanisms::Accept {
-            return Ok(());
+        let is_told = n_moving > self.n_explained || self.may_be_turned(zeros.count());
+        if zeros.count() != n_moving || !is_told || self.mechanisms == Mechanisms::Accept {
+            return Ok(0.0);
         }
         self.refuse_uncounted(zeros)?;
         let (energy, worst) = apart(self.motions, (&self.free, zeros), looked_at)?;
         let expected = SIX_DIGITS.max(zeros.turn);
         if energy <= expected {
-            return Ok(());
+            return Ok(energy);
         }
         let dof = self.motions.name_of(worst);
         let found = format!(
@@ -218,14 +242,15 @@ impl Case<'_> {
             }
             let misfit = Misfit { rotation: AXES[rotations[0] % 3], energy: cost.energy, of: cost.of, at };
             let is_tied = |row: usize| self.is_tied(row);
-            let mended = mended(motions, &self.free, zeros, (Some(misfit), &is_tied))?;
+            let mended = mended(motions, &self.free, zeros, (Some(misfit), &is_tied, first_rounded(motions)))?;
             return self.in_place(mended).map(CoordinateFit::Rounded);
         }
         let is_free = worst.costly.iter().any(|costly| costly.is_free);
-        if is_free && zeros.count() <= self.n_explained {
-            if cost.energy <= SOFTLY_HELD {
-                return Ok(CoordinateFit::Exact);
-            }
+        let is_held_in_rotation = is_free && zeros.count() < self.n_of_right_coordinates();
+        if is_free && zeros.count() <= self.n_explained && cost.energy <= SOFTLY_HELD {
+            return Ok(CoordinateFit::Exact);
+        }
+        if is_held_in_rotation && zeros.count() <= self.n_explained && !self.are_more_than_held(worst, zeros) {
             let directions = rotations.iter().map(|motion| Direction::ALL[*motion]).collect();
             let (rotations, n_zero) = (named(&rotations), zeros.count());
             return Err(Error::RotationsHeld { rotations, directions, n_zero, energy: cost.energy, dof: at });
@@ -233,6 +258,7 @@ impl Case<'_> {
         let mut error = self.misfit(zeros, &rotations, Cost { expected, ..cost }, at);
         if let Error::CoordinatesDoNotFit { found, .. } = &mut error
             && zeros.count() <= self.n_explained
+            && (is_held_in_rotation || !is_free)
         {
             let directions: Vec<String> =
                 rotations.iter().map(|motion| format!("\"{}\"", Direction::ALL[*motion])).collect();
@@ -284,6 +310,14 @@ impl Case<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Whether few digits of K let more motions pass than springs against the costly rotations of a body would: they hide what the rotations of
+    /// wrong coordinates cost, in a thin part the more of it, and one more may be held by them alone.
+    fn are_more_than_held(&self, doubt: &Doubt, zeros: &Zeros) -> bool {
+        let n_turning = doubt.costly.iter().filter(|costly| costly.is_free).count();
+        let is_coarse = self.motions.model.precision.stiffness.is_coarse();
+        is_coarse && zeros.count() + n_turning > self.n_of_right_coordinates()
     }
 
     /// Motions without energy there would be if the coordinates were right but for rounding: what is free by them, and the

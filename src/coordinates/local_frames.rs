@@ -17,7 +17,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
 
 use super::motions::Motions;
 use super::nodes::{FIRST_ROTATION, Nodes, noticeable_force};
@@ -42,14 +43,8 @@ const SHOWN_NODES: usize = 3;
 ///
 /// What a support touches as well is left alone, and so are bodies of which every node is touched: there the motions without energy tell.
 pub(super) fn refuse_local_frames(motions: &Motions<'_>, nodes: &Nodes) -> Result<()> {
-    let clusters = clusters(motions, nodes);
-    if clusters.is_empty() {
-        return Ok(());
-    }
-    // What K_TT lets go without a force tells nothing of supports.
-    let Some(behind) = let_go(motions, &clusters.concat())? else { return Ok(()) };
-    let turned: Vec<(usize, f64)> =
-        clusters.iter().filter_map(|rows| turned_nodes(motions, nodes, rows, &behind)).flatten().collect();
+    let mut turned = turned_in_clusters(motions, nodes)?;
+    turned.extend(motions.bodies.iter().filter_map(|body| turned_alone(motions, nodes, &body.rows)));
     let angle = turned.iter().fold(0.0, |max: f64, (_, angle)| max.max(*angle));
     match turned.first() {
         Some((first, _)) if angle > ALIGNED => {
@@ -64,6 +59,51 @@ pub(super) fn refuse_local_frames(motions: &Motions<'_>, nodes: &Nodes) -> Resul
         }
         _ => Ok(()),
     }
+}
+
+/// The nodes along axes of their own among those that nothing holds and that others around them tell from supports.
+fn turned_in_clusters(motions: &Motions<'_>, nodes: &Nodes) -> Result<Vec<(usize, f64)>> {
+    let clusters = clusters(motions, nodes);
+    if clusters.is_empty() {
+        return Ok(Vec::new());
+    }
+    // What K_TT lets go without a force tells nothing of supports.
+    let Some(behind) = let_go(motions, &clusters.concat())? else { return Ok(Vec::new()) };
+    Ok(clusters.iter().filter_map(|rows| turned_nodes(motions, nodes, rows, &behind)).flatten().collect())
+}
+
+/// The node of a body that is touched all over whose axes alone explain that: it is coupled with every other, as the one inside a block of
+/// eight elements is. Let go by itself it leaves no force anywhere, which no support does.
+fn turned_alone(motions: &Motions<'_>, nodes: &Nodes, rows: &[usize]) -> Option<(usize, f64)> {
+    let stiffness = &motions.model.stiffness;
+    let diagonal = crate::sparse::diagonal(stiffness);
+    let counts = |row: &usize| nodes.is_placed(*row) && diagonal[*row] > 0.0;
+    let mut of_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    rows.iter().copied().filter(counts).for_each(|row| of_node.entry(nodes.of(row)).or_default().push(row));
+    if of_node.keys().any(|node| !nodes.is_touched[*node]) {
+        return None;
+    }
+    let n_around = |rows: &[usize]| {
+        let entries = rows.iter().filter_map(|row| stiffness.outer_view(*row)).flat_map(|view| view.indices().to_vec());
+        entries
+            .map(|row| nodes.of(row as usize))
+            .filter(|node| of_node.contains_key(node))
+            .collect::<BTreeSet<_>>()
+            .len()
+    };
+    let mut around_all = of_node.values().filter(|rows| n_around(rows) == of_node.len());
+    around_all.find_map(|rows| turned_nodes(motions, nodes, rows, &let_go_alone(motions, rows)?)?.first().copied())
+}
+
+/// D of [`let_go`] for the rows of one node.
+fn let_go_alone(motions: &Motions<'_>, rows: &[usize]) -> Option<Mat<f64>> {
+    let entry = |i: usize, j: usize| motions.model.stiffness.get(rows[i], rows[j]).copied().unwrap_or(0.0);
+    let own = Mat::from_fn(rows.len(), rows.len(), entry);
+    let forces = Mat::from_fn(rows.len(), FIRST_ROTATION, |i, j| motions.forces[(rows[i], j)]);
+    let answers = own.llt(Side::Lower).ok()?.solve(&forces);
+    let mut behind = Mat::zeros(motions.sites.len(), FIRST_ROTATION);
+    rows.iter().enumerate().for_each(|(i, row)| behind.as_mut().row_mut(*row).copy_from(answers.row(i)));
+    Some(behind)
 }
 
 /// The rows of touched nodes that K couples, ascending, without those of bodies that are touched all over.

@@ -26,17 +26,21 @@ pub(super) struct Mended {
     pub(super) worst: usize,
 }
 
+/// The first of the motions that rounding makes costly. Translations do not depend on coordinates, so that rotations alone are mended; on axes
+/// they depend as rotations do.
+pub(super) fn first_rounded(motions: &Motions<'_>) -> usize {
+    if motions.has_rounded_axes() { 0 } else { FIRST_ROTATION }
+}
+
 /// The motions C′ with C′X = Z W, where Q P = C X are the combinations of the coordinates' motions and Z W those of the zero
 /// modes that are nearest to each other: on the rows of `interface` as far as these tell, in the mass of all otherwise. An interface node
-/// is where the coordinates have it, whatever part is out of place.
+/// is where the coordinates have it, whatever part is out of place. Motions before `first` are right as they are.
 pub(super) fn mended(
     motions: &Motions<'_>,
     free: &[Free],
     zeros: &Zeros,
-    (misfit, interface): (Option<Misfit>, &dyn Fn(usize) -> bool),
+    (misfit, interface, first): (Option<Misfit>, &dyn Fn(usize) -> bool, usize),
 ) -> Result<Mended> {
-    // Translations do not depend on coordinates: C′X = Z W is met by the rotations alone. On axes they depend as rotations do.
-    let first = if motions.has_rounded_axes() { 0 } else { FIRST_ROTATION };
     let every: Vec<usize> = (0..motions.sites.len()).collect();
     let centre = Frame::of(motions.sites, &every).centre;
     let mut mended = motions.centred.clone();

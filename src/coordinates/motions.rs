@@ -127,8 +127,14 @@ impl<'a> Motions<'a> {
         let force = |(row, j): (usize, usize)| self.forces[(row, j)].abs();
         let own = |row: usize| self.rounding_at(row) * self.scale_of(row);
         let of_coordinates = |(row, j): (usize, usize)| if j < 3 { 0.0 } else { FIVE_DIGITS * self.scale_of(row) };
+        // What roundings make of the translations together, and of the rotations, as where supports are looked for: between what they leave
+        // unheld and what axes explain there is nothing.
+        let of_alike = |(row, j): (usize, usize)| {
+            let alike = if j < 3 { 0..3 } else { 3..6 };
+            alike.fold(0.0, |max: f64, j| max.max(of_axes[(row, j)]))
+        };
         entries().any(|at| of_axes[at] > 0.0 && force(at) > own(at.0))
-            && entries().all(|at| force(at) <= of_axes[at] + own(at.0) + of_coordinates(at))
+            && entries().all(|at| force(at) <= of_alike(at) + own(at.0) + of_coordinates(at))
     }
 
     /// Whether axes of nodes look rounded.

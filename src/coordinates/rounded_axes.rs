@@ -2,9 +2,10 @@
 //!
 //! ```text
 //! δ_a    what components of the axes of node a may be off by: half a unit of the last decimal
-//! B      n × 6    Σ |K_ij| 2 δ (|c_k| + |c_l|) over the rows j of these nodes, c_k and c_l along the two other axes of the node
+//! B      n × 6    Σ |K_ij| 2 δ (|c_k| + |c_l| + 2 δ |c_j|) over the rows j of these nodes, c_k and c_l along the two other axes of the node
 //! ```
-//! Axes whose components are off by δ are turned by up to 2δ about each axis.
+//! Axes whose components are off by δ are turned by up to 2δ about each axis. Turned by two such angles a row keeps 1 − (2δ)² of what it has
+//! along its own axis: next to nothing, and all there is where K couples a row with that axis alone, as a block that is its own mirror image does.
 
 use std::collections::BTreeMap;
 
@@ -53,8 +54,9 @@ impl<'a> RoundedAxes<'a> {
         let entries = self.model.stiffness.outer_view(row);
         let mut bounds = [0.0; 6];
         for (col, value) in entries.iter().flat_map(|view| view.iter()).filter(|(col, _)| self.off[*col] > 0.0) {
-            let across = self.across(col);
-            bounds.iter_mut().zip(across).for_each(|(bound, size)| *bound += value.abs() * 2.0 * self.off[col] * size);
+            let (across, angle) = (self.across(col), 2.0 * self.off[col]);
+            let size = |j: usize| across[j] + angle * self.centred[(col, j)].abs();
+            (0..6).for_each(|j| bounds[j] += value.abs() * angle * size(j));
         }
         bounds
     }

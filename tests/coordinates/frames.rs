@@ -4,7 +4,7 @@ use supel::coordinates;
 use supel::error::Error;
 use supel::input::{Digits, Input, MatrixInput};
 use supel::job::Mechanisms;
-use supel::model::Model as Checked;
+use supel::model::{CoordinateFit, Model as Checked};
 use supel_models::transform::{grounded, in_local_frames, join, rounded, supported};
 use supel_models::{Assembler, Inertia, Material, Model, Section, SplitMix64, TetMesh, brick, frame, membrane};
 
@@ -221,5 +221,36 @@ fn an_upright_along_turned_axes_is_no_held_chain() {
         let is_told = found.contains("6 motions without energy") && found.contains("mechanisms");
         assert!(is_told || found.contains("nothing holds the body"), "{degrees}: {found}");
         assert!(settled(Mechanisms::Accept).is_ok(), "{degrees}");
+    }
+}
+
+/// The node inside a block of eight elements is coupled with every other, and its axes make forces at all of them.
+#[test]
+fn a_local_frame_inside_a_small_block_is_named() {
+    let sound = brick([2, 2, 2], [0.2, 0.3, 0.25], &Material::STEEL_SI);
+    for (name, sound) in [("block", lumped(&sound)), ("block with a full mass", sound)] {
+        for angle in [1e-4, 1e-3, 1e-2, 1.0] {
+            let faulty = in_local_frames(&sound, &axes_turned_by(angle), |label| label == 14);
+            assert_names(&input(&faulty), &[14], &format!("{name}, {angle}"));
+        }
+        // A spring at that node touches all of them too, and is a support.
+        let row = sound.dofs.iter().position(|dof| *dof == (14, 0)).expect("a row");
+        let held = grounded(&sound, row, 1e-3 * sound.stiffness.iter().fold(0.0f64, |max, entry| max.max(entry.2)));
+        let found = Checked::new(input(&held)).and_then(|model| compared(model, Ties::All));
+        assert!(found.is_ok(), "{name}: {:?}", found.err());
+    }
+}
+
+/// Axes that are off by less than six digits tell are wrong for nobody: motions as a whole are those that K lets pass, and no mechanism. What
+/// they cost may be less than rounding, and the forces are not.
+#[test]
+fn axes_off_by_rounding_are_mended() {
+    let sound = brick([2, 2, 2], [0.2, 0.3, 0.25], &Material::STEEL_SI);
+    for (label, angle) in [1, 2].into_iter().flat_map(|label| [5e-7, 8e-7].map(|angle| (label, angle))) {
+        for sound in [lumped(&sound), sound.clone()] {
+            let off = in_local_frames(&sound, &axes_turned_by(angle), |other| other == label);
+            let found = Checked::new(input(&off)).and_then(|model| compared(model, Ties::None)).map(|model| model.fit);
+            assert!(matches!(found, Ok(CoordinateFit::Rounded(_))), "node {label}, {angle}: {found:?}");
+        }
     }
 }

@@ -8,6 +8,7 @@ use supel_models::{Inertia, Material, Model, Section, SplitMix64, brick, frame};
 
 use crate::Ties;
 use crate::chain::input;
+use crate::frames::with_digits;
 
 fn fit(model: &Model, ties: Ties) -> Result<CoordinateFit, Error> {
     Ok(crate::compared(Checked::new(input(model))?, ties)?.fit)
@@ -139,6 +140,25 @@ fn other_axes_of_a_held_component_are_no_rounding() {
             ] {
                 let found = fit(&faulty, Ties::None);
                 assert!(!matches!(found, Ok(CoordinateFit::Rounded(_))), "seed {seed}, {at_rest:?}: {found:?}");
+            }
+        }
+    }
+}
+
+/// Masts in a line, of eight digits: what their rotations cost by other heights is less than what digits may make of them, and as many motions
+/// cost nothing as bodies have, or but one that digits alone hold. Nothing holds them in rotation, so that it is the coordinates that are wrong.
+#[test]
+fn wrong_heights_of_a_mast_of_few_digits_are_no_supports() {
+    for n in [20, 30, 40, 60] {
+        let nodes: Vec<[f64; 3]> = (0..n).map(|i| [0.0, 0.0, f64::from(i)]).collect();
+        let edges: Vec<[usize; 2]> = (1..n as usize).map(|i| [i - 1, i]).collect();
+        let sound = frame(&nodes, &edges, &Section::round(0.004), &Material::STEEL_SI, Inertia::Consistent);
+        for factor in [2.0, 1000.0] {
+            let stretched = with_nodes(&sound, |[x, y, z]| [x, y, factor * z]);
+            for ties in [Ties::All, Ties::None] {
+                let told = with_digits(&stretched, 8);
+                let found = Checked::new(told).and_then(|model| crate::compared(model, ties)).map(|model| model.fit);
+                assert!(matches!(found, Err(Error::CoordinatesDoNotFit { .. })), "{n}, {factor}: {found:?}");
             }
         }
     }

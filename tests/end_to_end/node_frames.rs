@@ -3,7 +3,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::transform::{in_local_frames, rounded};
-use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
 use supel_runtime::{Matrix, Superelement};
 use supel_testing::schema::{assert_follows, validator};
 
@@ -301,6 +301,35 @@ fn axes_of_enough_decimals_turn_no_mass() {
         let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
         place.write("kept.json", job.as_bytes());
         supel(&["verify", &place.text("x.supel"), "--job", &place.text("kept.json")]).expect(ExitCode::Done);
+    }
+}
+
+/// A block that is its own mirror image couples rows of one node with single axes of another, which five decimals shorten and do not turn. One
+/// node or many, mid of the block or corner: what roundings of axes leave is no mechanism.
+#[test]
+fn axes_of_five_decimals_make_no_mechanism() {
+    let block = brick([2, 2, 2], [0.2, 0.3, 0.25], &Material::STEEL_SI);
+    let bar = brick([6, 2, 2], [1.0, 0.3, 0.25], &Material::STEEL_SI);
+    for (model, chosen, foot) in [(&block, vec![14], "1,3,7"), (&bar, vec![32], "1,15,43"), (&block, vec![1], "2,3,7")]
+    {
+        for step in 0..4 {
+            let mut turned = model.clone();
+            let mut table = "node,x1,x2,x3,y1,y2,y3\n".to_owned();
+            for node in &chosen {
+                let axes = turned_by(0.3 + 1.3 * f64::from(step) + *node as f64);
+                turned = in_local_frames(&turned, &axes, |other| other == *node);
+                let row: Vec<String> = axes[..2].iter().flatten().map(|value| format!("{value:.5}")).collect();
+                table += &format!("{node},{}\n", row.join(","));
+            }
+            let place = Place::with(&turned);
+            place.write("frames.csv", table.as_bytes());
+            let mut flags = place.model_flags();
+            flags.extend(["--frames".to_owned(), place.text("frames.csv")]);
+            let reduction = format!("--interface foot={foot} --method craig-bampton --modes 3");
+            let ended = place.reduce(&flags, &reduction).expect(ExitCode::Done);
+            assert!(ended.out.contains("W-FRAME-DIGITS"), "{chosen:?}, {step}: {}", ended.out);
+            assert!(!ended.out.contains("W-MECHANISM"), "{chosen:?}, {step}: {}", ended.out);
+        }
     }
 }
 
