@@ -243,8 +243,5 @@ pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Chec
         fail_above,
         worst: (value != 0.0).then(|| format!("{which}, {}", coordinate_name(evidence, at))),
     };
-    match first.filter(|_| !is_mass) {
-        Some(first) => named_by_digits(evidence, first, check),
-        None => check,
-    }
+    if is_mass || spectrum.first_elastic().is_none() { check } else { named_by_digits(evidence, spectrum, check) }
 }

@@ -36,13 +36,13 @@ pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[
     let judged = energy_limits(evidence, spectrum);
     let value = energy.largest_quotient / first;
     let check = Check { value, limits: judged.limits, fail_above: judged.fail_above, ..check };
-    named_by_digits(evidence, first, check)
+    named_by_digits(evidence, spectrum, check)
 }
 
 /// A check of the energy of rigid-body motion relative to the first elastic one, or of its force, that says so where it is past its limit and
 /// what few digits make of that energy explains its value.
-pub(super) fn named_by_digits(evidence: &Evidence<'_>, first: f64, check: Check) -> Check {
-    if check.value <= check.limits.value() || !are_explained_by_digits(evidence, first, check.value) {
+pub(super) fn named_by_digits(evidence: &Evidence<'_>, spectrum: &Spectrum, check: Check) -> Check {
+    if check.value <= check.limits.value() || !are_explained_by_digits(evidence, spectrum, check.value) {
         return check;
     }
     let words = "by the digits of the stiffness; write it with more";
@@ -51,8 +51,8 @@ pub(super) fn named_by_digits(evidence: &Evidence<'_>, first: f64, check: Check)
 }
 
 /// Whether few digits of K make as much of the energies of rigid-body motion, relative to the first elastic one.
-fn are_explained_by_digits(evidence: &Evidence<'_>, first: f64, energy: f64) -> bool {
-    let noise = NOISE_FACTOR * energy_noise(evidence, first) * share_of_data(evidence.partition);
+fn are_explained_by_digits(evidence: &Evidence<'_>, spectrum: &Spectrum, energy: f64) -> bool {
+    let noise = NOISE_FACTOR * spectrum.noise * share_of_data(evidence.partition);
     evidence.partition.has_few_digits() && energy <= noise
 }
 
@@ -176,7 +176,7 @@ pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Chec
     let judged = limits::of_force(noise, share_of_data);
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
     let check = force::of_rigid_motion(evidence.reduction.pencil(), first, judged, &name);
-    Ok(if spectrum.first_elastic().is_some() { named_by_digits(evidence, first, check) } else { check })
+    Ok(if spectrum.first_elastic().is_some() { named_by_digits(evidence, spectrum, check) } else { check })
 }
 
 /// What disturbs forces of rigid-body motion.
@@ -232,7 +232,7 @@ pub(super) fn zero_modes(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Check 
             let found = format!("{} zero modes, {n_r} rigid-body modes", n_r + spectrum.n_others - spectrum.n_held);
             let energy =
                 |first: f64| spectrum.rigid().iter().fold(0.0, |max: f64, energy| max.max(energy.abs())) / first;
-            let of_digits = |first: &f64| are_explained_by_digits(evidence, *first, energy(*first));
+            let of_digits = |first: &f64| are_explained_by_digits(evidence, spectrum, energy(*first));
             match spectrum.first_elastic().filter(of_digits) {
                 Some(_) if spectrum.n_held > 0 => {
                     format!("{found}, as such motion costs energy by the digits of the stiffness; write it with more")
