@@ -28,6 +28,7 @@ mod rounding;
 mod rows;
 mod strayed;
 mod superelement;
+mod truth;
 mod turned;
 mod unit;
 

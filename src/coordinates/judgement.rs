@@ -14,7 +14,6 @@ use crate::job::Mechanisms;
 use crate::model::{CoordinateFit, Misfit, RoundedCoordinates};
 use crate::number::quantity;
 use crate::partition::TiedNodes;
-use crate::rigid::refuse_uncounted;
 use supel_runtime::MOTIONS;
 
 /// Share of the Rayleigh quotient of the first elastic mode that rounded coordinates may cost. Five digits of a plate of
@@ -98,11 +97,6 @@ fn is_of_the_arithmetic(error: &Error) -> bool {
 }
 
 impl Case<'_> {
-    /// An error where few digits of K leave open which motions are without energy.
-    fn refuse_uncounted(&self, zeros: &Zeros) -> Result<()> {
-        refuse_uncounted(self.motions.model.precision.stiffness, zeros.count(), zeros.bar_of_digits)
-    }
-
     /// Supports touch some rows, and the coordinates are right on all others: more motions without energy than they explain
     /// are mechanisms, unless they are rigid-body motions as far as the other rows tell.
     fn supports(&self, zeros: &Zeros) -> Result<CoordinateFit> {
@@ -145,7 +139,7 @@ impl Case<'_> {
                 false => Ok(CoordinateFit::Exact),
             };
         }
-        self.refuse_uncounted(zeros)?;
+        zeros.refuse_uncounted(motions)?;
         let costly: Vec<usize> = (0..6).filter(|motion| self.costs_energy(worst, *motion)).collect();
         let place = Place::of(motions, &motions.bodies[worst.body].rows, &costly);
         let mut error = self.misfit(zeros, &costly, cost, place.at);
@@ -192,7 +186,7 @@ impl Case<'_> {
         if zeros.count() != n_moving || !is_told || self.mechanisms == Mechanisms::Accept {
             return Ok(0.0);
         }
-        self.refuse_uncounted(zeros)?;
+        zeros.refuse_uncounted(self.motions)?;
         let (energy, worst) = apart(self.motions, (&self.free, zeros), looked_at)?;
         let expected = SIX_DIGITS.max(zeros.turn);
         if energy <= expected {

@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::factor::count_below;
 use crate::model::Model;
 use crate::partition::{DofOrigin, Held, Partition};
-use crate::rigid::{ZeroModes, found_zero_modes, moving_directions};
+use crate::rigid::{ZeroModes, found_zero_modes, moving_directions, refuse_uncounted};
 
 /// A shift just above zero, in units of what rounding of the data can make of a zero eigenvalue: as many as an eigenvalue may
 /// be off by rounding of the factorisation before a sign is wrong.
@@ -101,7 +101,7 @@ pub(super) struct Zeros {
     /// The first eigenvalues above zero, ascending.
     elastic: Vec<f64>,
     /// Relative error bar that few digits of K leave of the first of them.
-    pub(super) bar_of_digits: f64,
+    bar_of_digits: f64,
     /// The angle by which roundings turn them towards elastic modes at most.
     pub(super) turn: f64,
 }
@@ -133,6 +133,11 @@ impl Zeros {
 
     pub(super) fn count(&self) -> usize {
         self.shapes.ncols()
+    }
+
+    /// An error where few digits of K leave open which motions are without energy.
+    pub(super) fn refuse_uncounted(&self, motions: &Motions<'_>) -> Result<()> {
+        refuse_uncounted(motions.model.precision.stiffness, self.count(), self.bar_of_digits)
     }
 
     /// Combinations of the zero modes that are rigid-body motions, body by body, on the rows that no support touches.
