@@ -32,10 +32,15 @@ use crate::sparse::Triangle;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend(
-    "if" = { "required": ["scene"], "properties": { "scene": { "anyOf": [
-        { "required": ["band_hz"] },
-        { "required": ["analysis"], "properties": { "analysis": { "const": "static" } } },
-    ] } } },
+    "if" = { "required": ["scene"], "anyOf": [
+        { "properties": { "scene": { "required": ["band_hz"] } } },
+        {
+            "properties": {
+                "scene": { "required": ["analysis"], "properties": { "analysis": { "const": "static" } } },
+                "run": { "properties": { "skip": { "not": { "const": "nothing" } } } },
+            },
+        },
+    ] },
     "else" = { "properties": { "reduction": { "anyOf": [
         { "required": ["modes"] },
         { "properties": { "method": { "const": "guyan" } } },

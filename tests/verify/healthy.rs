@@ -91,6 +91,7 @@ coupling = "rigid"
 [scene]
 grounded = ["a.ux", "a.uy", "a.rx", "a.ry", "a.rz"]
 gravity = [0, 0, -1]
+outputs = {{ nodes = [1] }}
 "#
         );
         place.write("job.toml", job.as_bytes());
