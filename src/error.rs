@@ -3548,12 +3548,12 @@ pub enum Error {
         "E-STURM-PIVOT",
         NumericalLimit,
         "ask for one mode more or less; with a penalty far above all else lower it, or do without the count \
-        (`run.certify = \"none\"`); for `supel certify` name another `--band`"
+        (`run.certify = \"none\"`); for `supel certify` name another band"
     )]
     #[error(
         "the Sturm count met a pivot without a sign – the shift lies on an eigenvalue, or a penalty or a mass far \
         above all else takes the digits of the pivot – ask for one mode more or less; lower what is so large, or do without the count, \
-        run.certify = \"none\" (reduce --certify none); of supel certify, name another --band"
+        run.certify = \"none\" (reduce --certify none); of supel certify, name another band"
     )]
     SturmPivot,
     /// The eigensolver stalled.
