@@ -17,6 +17,10 @@ const BLOCK: f64 = 8.0;
 /// sweeps of half of them.
 const REFINED_SWEEPS: f64 = 2.0;
 
+/// Shifts below the spectrum that a search tries without an interface to hold the component: near zero, where the motions of the body tell how
+/// far the first elastic mode is, and by that.
+const SHIFTS: f64 = 3.0;
+
 /// How far modes are proved complete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Proofs {
@@ -55,8 +59,8 @@ pub struct Sizes {
     pub statics: Statics,
     /// How much more of the factor each solve reads than both triangles once: steps of refinement where it is kept in single precision.
     pub sweeps: f64,
-    /// Whether nothing holds the component and it has no interface: K is singular then, and factors of K − σM stand in for its own.
-    pub is_free: bool,
+    /// Factors of K − σM below the spectrum that a search takes where nothing holds the component and it has no interface: K is singular then.
+    pub n_shifts: f64,
     /// Whether an eigensolver runs.
     pub modes: Modes,
     /// Whether the mass is reduced.
@@ -83,7 +87,7 @@ impl Sizes {
             n_answers: (n_relief + n_residual + partition.expansion.count()) as f64,
             text_bytes: text_bytes as f64,
             statics: plan.statics(),
-            is_free: plan.is_free_without_interface(),
+            n_shifts: if plan.is_free_without_interface() { SHIFTS } else { 0.0 },
             modes: plan.modes(),
             mass: plan.mass(),
             ..Self::of_model(job, partition, analysis, n_modes)
@@ -110,7 +114,7 @@ impl Sizes {
                 Precision::Mixed => REFINED_SWEEPS,
                 Precision::Double | Precision::Auto => 1.0,
             },
-            is_free: false,
+            n_shifts: 0.0,
             modes: Modes::Computed,
             mass: Mass::Reduced,
             is_band: matches!(job.reduction.wanted(), ModeSelection::UpTo { .. }),

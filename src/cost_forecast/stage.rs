@@ -10,10 +10,6 @@ const PROBES_OF_CONDITION: f64 = 10.0;
 /// Motions of each interface whose static stiffness is compared.
 const MOTIONS_OF_AN_INTERFACE: f64 = 6.0;
 
-/// Shifts below the spectrum that a search tries without an interface to hold the component: near zero, where the motions of the body tell how
-/// far the first elastic mode is, and by that.
-const SHIFTS: f64 = 3.0;
-
 /// The stage that finds the modes.
 pub(super) const MODES: &str = "modes";
 
@@ -116,8 +112,7 @@ fn modes(sizes: &Sizes) -> Work {
         }
     };
     let counted = if sizes.is_band { sizes.count() } else { Work::default() };
-    let shifted = if sizes.is_free { sizes.factor() * SHIFTS } else { Work::default() };
-    counted + shifted + search + of_interface
+    counted + sizes.factor() * sizes.n_shifts + search + of_interface
 }
 
 fn certificate(sizes: &Sizes) -> Work {

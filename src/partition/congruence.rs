@@ -81,7 +81,7 @@ impl<'a> Moved<'a> {
     }
 
     /// Columns and values of a dof's row, not in order, where it is a row of A with its columns in other places, each to itself.
-    fn permuted<'m>(&self, matrix: &'m SparseMatrix, dof: usize) -> Option<impl ExactSizeIterator<Item = (u32, f64)>> {
+    fn permuted(&self, matrix: &SparseMatrix, dof: usize) -> Option<impl ExactSizeIterator<Item = (u32, f64)>> {
         let DofOrigin::Row(row) = self.transformation.dofs[dof].origin else { return None };
         if self.by_patch_nodes.contains_key(&dof) {
             return None;

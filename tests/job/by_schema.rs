@@ -90,6 +90,9 @@ fn jobs() -> Vec<Value> {
     if let Value::Object(reduction) = &mut of_statics["reduction"] {
         reduction.remove("modes");
     }
+    if let Value::Object(run) = &mut of_statics["run"] {
+        run.remove("skip");
+    }
     jobs.push(of_statics);
     jobs.extend(regions().map(|region| {
         let hub = json!([{ "name": "hub", "nodes": { "within": region }, "coupling": "rigid", "origin": [0.25, 1.25, 2.25] }]);
