@@ -27,6 +27,7 @@ mod ranges;
 mod reading;
 mod recovery;
 mod reduction;
+mod run;
 mod scene;
 mod scene_validation;
 mod schema;
@@ -62,14 +63,12 @@ pub use outputs::OutputsJob;
 pub use quantities::QuantitiesJob;
 pub use recovery::RecoveryJob;
 pub use reduction::{ModeSelection, ModesJob, ReductionJob};
+pub use run::{Certify, ConstraintStorage, Precision, RunJob, Skip};
 pub use scene::{DampingJob, SceneJob};
 pub use schema::{Role, schema};
 pub use selection::Selection;
 pub(crate) use shape::nearest;
 pub use statements::DofUse;
 pub use support::{Support, boundary_in_words};
-pub use types::{
-    Certify, ConstraintStorage, ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, ModelState, Precision,
-    RunJob, Skip, WriteJob,
-};
+pub use types::{ConstraintsToGround, Duplicates, Expectation, Job, ModelJob, ModelState, WriteJob};
 pub(crate) use validation::ends_in;

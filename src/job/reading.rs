@@ -12,8 +12,9 @@ use super::gravity::GravityJob;
 use super::location::Holder;
 use super::mechanisms::Mechanisms;
 use super::reduction::ModesJob;
+use super::run::{Certify, Skip};
 use super::scene::SceneJob;
-use super::types::{Certify, ConstraintsToGround, Job, ModelJob, ModelState, Skip};
+use super::types::{ConstraintsToGround, Job, ModelJob, ModelState};
 use super::{document, validation};
 use crate::error::{Error, Result};
 

@@ -9,9 +9,10 @@ use super::method::{Boundary, ModeOrigin};
 use super::node_selection::NodeSelection;
 use super::ranges::{self, positive, size};
 use super::reduction::{ModeSelection, ModesJob};
+use super::run::Skip;
 use super::selection;
 use super::statements;
-use super::types::{Job, ModelState, Skip};
+use super::types::{Job, ModelState};
 use crate::dofs::Direction;
 use crate::error::{Error, Result, Selector};
 
