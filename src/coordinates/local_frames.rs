@@ -76,13 +76,13 @@ fn turned_in_clusters(motions: &Motions<'_>, nodes: &Nodes) -> Result<Vec<(usize
 /// eight elements is. Let go by itself it leaves no force anywhere, which no support does.
 fn turned_alone(motions: &Motions<'_>, nodes: &Nodes, rows: &[usize]) -> Option<(usize, f64)> {
     let stiffness = &motions.model.stiffness;
-    let diagonal = crate::sparse::diagonal(stiffness);
-    let counts = |row: &usize| nodes.is_placed(*row) && diagonal[*row] > 0.0;
-    let mut of_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    rows.iter().copied().filter(counts).for_each(|row| of_node.entry(nodes.of(row)).or_default().push(row));
-    if of_node.keys().any(|node| !nodes.is_touched[*node]) {
+    let counts = |row: &usize| nodes.is_placed(*row) && stiffness.get(*row, *row).is_some_and(|own| *own > 0.0);
+    // Of nearly every body the first rows tell.
+    if rows.iter().any(|row| !nodes.is_touched[nodes.of(*row)] && counts(row)) {
         return None;
     }
+    let mut of_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    rows.iter().copied().filter(counts).for_each(|row| of_node.entry(nodes.of(row)).or_default().push(row));
     let n_around = |rows: &[usize]| {
         let entries = rows.iter().filter_map(|row| stiffness.outer_view(*row)).flat_map(|view| view.indices().to_vec());
         entries

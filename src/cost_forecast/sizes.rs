@@ -59,7 +59,8 @@ pub struct Sizes {
     pub statics: Statics,
     /// How much more of the factor each solve reads than both triangles once: steps of refinement where it is kept in single precision.
     pub sweeps: f64,
-    /// Factors of K − σM below the spectrum that a search takes where nothing holds the component and it has no interface: K is singular then.
+    /// Factorisations of K − σM in the search for modes. There are some where K is singular: nothing holds the component, and it has no
+    /// interface.
     pub n_shifts: f64,
     /// Whether an eigensolver runs.
     pub modes: Modes,

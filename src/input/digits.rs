@@ -43,8 +43,8 @@ use crate::sparse::TripletBlocks;
 const DOUBLE_DIGITS: u32 = 17;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
-/// The same of modes. Eighths from −1 to 1 have seven different values below the highest decade; tenths of a largest value of one are as
-/// many as were rounded to a decimal.
+/// Fewer are enough for modes. Eighths from −1 to 1, an exact grid, have seven different values below the highest decade. Tenths up to one
+/// have nine, and look the same as values that were rounded to one decimal.
 const MIN_DISTINCT_OF_MODES: usize = 8;
 /// Different last decimals of rounded values: 18 numbers without a pattern have fewer with a chance of one in ten thousand.
 const MIN_LAST_DECIMALS: usize = 6;
@@ -238,8 +238,8 @@ fn n_long(distinct: &BTreeSet<Decimal>) -> usize {
 }
 
 /// Whether numbers of at most `digits` digits look rounded relative to their size: below the highest decade, too, most
-/// use all the digits. Of rounded numbers nine in ten do; numbers on a fixed grid have fewer the smaller they are. There are to be
-/// `least` different ones.
+/// use all the digits. Of rounded numbers nine in ten do; numbers on a fixed grid have fewer the smaller they are. `least` is how many
+/// different numbers it takes.
 fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32, least: usize) -> bool {
     let top = distinct.last().map_or(0, |decimal| decimal.exponent);
     let lower: BTreeSet<(u64, u32)> = distinct
@@ -261,7 +261,7 @@ fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, relative: Digits) -> O
     let short = || distinct.iter().filter(|decimal| decimal.n_digits <= MAX_DECIMAL_DIGITS);
     let is_full = |decimal: &&Decimal| decimal.n_decimals() == decimals;
     let full = || short().filter(is_full);
-    // A regular mesh gives round numbers, 140000000 beside 157297777.78. If the source has many digits, they say nothing about its decimals.
+    // A regular mesh gives round numbers, 140000000 beside 157297777.78. Such numbers do not show decimals, unless all digits are few.
     let tells =
         |decimal: &&Decimal| digits <= MAX_EXACT_DIGITS || decimal.n_digits > MAX_EXACT_DIGITS || is_full(decimal);
     let n_full_digits = short().filter(|decimal| decimal.n_digits == digits).count();

@@ -48,7 +48,12 @@ fn shown_and_sizes(partition: &Partition, rigid: &RigidBodyModes) -> (f64, Vec<f
     let motions = rigid.massive();
     let (forces, terms) = product_and_terms(&partition.stiffness, motions);
     let (energies, sizes) = (dense::dots(motions, forces.as_ref()), energies_of_terms(motions, terms.as_ref()));
-    let share = zero::shown_below_zero(&energies, &zero_energies(partition, motions, terms.as_ref()), &sizes);
+    // The levels of the motions take every entry of K; none is below what rounding of its own terms makes of it.
+    let least: Vec<f64> = sizes.iter().map(|size| zero::level(0.0, f64::EPSILON * size, 0.0)).collect();
+    let share = match zero::shown_below_zero(&energies, &least, &sizes) > 0.0 {
+        true => zero::shown_below_zero(&energies, &zero_energies(partition, motions, terms.as_ref()), &sizes),
+        false => 0.0,
+    };
     (share, sizes)
 }
 

@@ -243,5 +243,5 @@ pub(super) fn definiteness(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Chec
         fail_above,
         worst: (value != 0.0).then(|| format!("{which}, {}", coordinate_name(evidence, at))),
     };
-    if is_mass || spectrum.first_elastic().is_none() { check } else { named_by_digits(evidence, spectrum, check) }
+    if is_mass { check } else { named_by_digits(evidence, spectrum, check) }
 }

@@ -50,7 +50,7 @@ pub(super) fn named_by_digits(evidence: &Evidence<'_>, spectrum: &Spectrum, chec
     Check { worst: Some(worst), ..check }
 }
 
-/// Whether few digits of K make as much of the energies of rigid-body motion, relative to the first elastic one.
+/// Whether few digits of K make as much of the energies of rigid-body motion, relative to the first elastic one; never where none is known.
 fn are_explained_by_digits(evidence: &Evidence<'_>, spectrum: &Spectrum, energy: f64) -> bool {
     let noise = NOISE_FACTOR * spectrum.noise * share_of_data(evidence.partition);
     evidence.partition.has_few_digits() && energy <= noise
@@ -176,7 +176,7 @@ pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Chec
     let judged = limits::of_force(noise, share_of_data);
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
     let check = force::of_rigid_motion(evidence.reduction.pencil(), first, judged, &name);
-    Ok(if spectrum.first_elastic().is_some() { named_by_digits(evidence, spectrum, check) } else { check })
+    Ok(named_by_digits(evidence, spectrum, check))
 }
 
 /// What disturbs forces of rigid-body motion.

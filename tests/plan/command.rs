@@ -212,7 +212,7 @@ fn the_run_needs_the_memory_that_the_plan_says() {
         (PATCHES, HERTING, "", ""),
         (PATCHES, many, "boundaries = []\nband_hz = [0, 9000]", ""),
         (PATCHES, HERTING, "analysis = \"modal\"", &loads),
-        // K is singular without an interface: there is a factor of K − σM beside the one that stands in for its own.
+        // Nothing holds this component, and K is singular. Two factors of K − σM are in memory at the same time.
         ("", "method = \"craig-bampton\", modes = { count = 10 }", "", ""),
     ] {
         let place = Place::with(&model);
