@@ -22,13 +22,15 @@ impl From<f64> for Twofold {
     }
 }
 
+#[inline(always)]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// a · b without error.
+/// a · b without error. Where the processor has a fused multiplication and the caller is compiled for it, it is one instruction.
+#[inline(always)]
 pub(crate) fn exact_product(a: f64, b: f64) -> Twofold {
     let high = a * b;
     Twofold { high, low: a.mul_add(b, -high) }
@@ -37,6 +39,7 @@ pub(crate) fn exact_product(a: f64, b: f64) -> Twofold {
 impl Add for Twofold {
     type Output = Self;
 
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         let (s, e) = two_sum(self.high, other.high);
         let (t, f) = two_sum(self.low, other.low);
@@ -65,6 +68,7 @@ impl Sub for Twofold {
 impl Mul<f64> for Twofold {
     type Output = Self;
 
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         let product = exact_product(self.high, factor);
         let (high, low) = two_sum(product.high, product.low + self.low * factor);

@@ -1,12 +1,13 @@
 //! The congruence TᵀAT of a sparse matrix, row by row and in parallel; that of a symmetric one is symmetric to the bit.
 //!
-//! Rows are counted first and then written to their final place, so that no second copy of the result is needed.
+//! Rows are counted first, without their values, and then written to their final place, so that no second copy of the result is needed.
 //!
 //! Entries are summed to twice the working precision and rounded once. A large mass away from the node of its patch makes terms m r² that
 //! hundreds of others are added to: an ulp of it at each of them is more than the smallest inertia of the patch can bear.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
@@ -38,12 +39,12 @@ pub(super) fn general_congruence(matrix: &SparseMatrix, transformation: &Transfo
 fn rows(matrix: &SparseMatrix, moved: &Moved<'_>) -> RowStorage {
     let n = moved.transformation.dofs.len();
     let dofs = (0..n).into_par_iter().with_min_len(ROWS_PER_TASK);
-    let length = |row: &mut Row, dof: usize| match moved.permuted(matrix, dof) {
+    let length = |row: &mut Row<Place>, dof: usize| match moved.permuted(matrix, dof) {
         Some(own) => own.len(),
         None => row.gather(matrix, moved, dof).sums().count(),
     };
     let lengths: Vec<usize> = dofs.map_init(Row::default, length).collect();
-    filled(&lengths, Row::default, |row, dof, indices, values| {
+    filled(&lengths, Row::<Twofold>::default, |row, dof, indices, values| {
         if let Some(own) = moved.permuted(matrix, dof) {
             return row.sort(own, indices, values);
         }
@@ -106,35 +107,102 @@ impl<'a> Moved<'a> {
     }
 }
 
+/// What is known of a term t_i A_ij t_j.
+trait Term: Copy + Default + Send + Sync {
+    fn of(factor: f64, value: f64) -> Self;
+    fn times(self, lever: f64) -> Self;
+    fn plus(self, other: Self) -> Self;
+}
+
+impl Term for Twofold {
+    #[inline(always)]
+    fn of(factor: f64, value: f64) -> Self {
+        exact_product(factor, value)
+    }
+
+    #[inline(always)]
+    fn times(self, lever: f64) -> Self {
+        self * lever
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+}
+
+/// That it is there.
+#[derive(Clone, Copy, Default)]
+struct Place;
+
+impl Term for Place {
+    #[inline(always)]
+    fn of(_: f64, _: f64) -> Self {
+        Self
+    }
+
+    #[inline(always)]
+    fn times(self, _: f64) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn plus(self, _: Self) -> Self {
+        self
+    }
+}
+
 /// The terms of one row of TᵀAT, in memory used again for the next.
 #[derive(Default)]
-struct Row {
+struct Row<V> {
     /// Column of each term in the upper half, its place among the values in the lower: sorted, the terms of a column stay in
     /// the order of the model, so that their sum is always the same.
     keys: Vec<u64>,
-    values: Vec<Twofold>,
+    values: Vec<V>,
     /// Values that are single terms.
     unsorted: Vec<f64>,
 }
 
-impl Row {
-    /// The rows that move with this dof, expanded by T.
-    fn gather(&mut self, matrix: &SparseMatrix, moved: &Moved<'_>, dof: usize) -> &mut Self {
-        self.clear();
+/// The rows of A that move with a dof, expanded by T.
+struct Gather<'a, V> {
+    to: &'a mut Row<V>,
+    matrix: &'a SparseMatrix,
+    moved: &'a Moved<'a>,
+    dof: usize,
+}
+
+impl<V: Term> WithSimd for Gather<'_, V> {
+    type Output = ();
+
+    /// For the processor that is there, which multiplies and adds in one instruction: exact products take that.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { to, matrix, moved, dof } = self;
+        to.clear();
         for (row, factor) in moved.with(dof) {
-            for (col, value) in matrix.outer_view(row).iter().flat_map(|row| row.iter()) {
-                let term = exact_product(factor, *value);
+            let Some(entries) = matrix.outer_view(row) else { continue };
+            for (col, value) in entries.indices().iter().zip(entries.data()) {
+                let term = V::of(factor, *value);
                 match moved.has_long_rows {
-                    true => self.push(col as u32, term),
-                    false => self.expand(moved, (col, term)),
+                    true => to.push(*col, term),
+                    false => to.expand(moved, (*col, term)),
                 }
             }
         }
         if moved.has_long_rows {
-            let columns: Vec<(u32, Twofold)> = self.sums().collect();
-            self.clear();
-            columns.into_iter().for_each(|(col, value)| self.expand(moved, (col as usize, value)));
+            let columns: Vec<(u32, V)> = to.sums().collect();
+            to.clear();
+            for column in columns {
+                to.expand(moved, column);
+            }
         }
+    }
+}
+
+impl<V: Term> Row<V> {
+    /// The rows that move with this dof, expanded by T.
+    fn gather(&mut self, matrix: &SparseMatrix, moved: &Moved<'_>, dof: usize) -> &mut Self {
+        Arch::new().dispatch(Gather { to: &mut *self, matrix, moved, dof });
         assert!(self.values.len() <= u32::MAX as usize, "a row of TᵀAT has {} terms", self.values.len());
         self
     }
@@ -158,24 +226,26 @@ impl Row {
         self.values.clear();
     }
 
-    fn push(&mut self, column: u32, value: Twofold) {
+    #[inline(always)]
+    fn push(&mut self, column: u32, value: V) {
         self.keys.push(u64::from(column) << 32 | self.values.len() as u64);
         self.values.push(value);
     }
 
     /// The terms of a column of A.
-    fn expand(&mut self, moved: &Moved<'_>, (col, value): (usize, Twofold)) {
-        for (target, lever) in moved.transformation.rows[col].entries() {
-            self.push(target, value * lever);
+    #[inline(always)]
+    fn expand(&mut self, moved: &Moved<'_>, (col, value): (u32, V)) {
+        for (target, lever) in moved.transformation.rows[col as usize].entries() {
+            self.push(target, value.times(lever));
         }
     }
 
     /// Columns in ascending order, and the sum of the terms of each.
-    fn sums(&mut self) -> impl Iterator<Item = (u32, Twofold)> {
+    fn sums(&mut self) -> impl Iterator<Item = (u32, V)> {
         self.keys.sort_unstable();
         let term = |key: &u64| self.values[(key & u64::from(u32::MAX)) as usize];
         let columns = self.keys.chunk_by(|left, right| left >> 32 == right >> 32);
-        columns.map(move |keys| ((keys[0] >> 32) as u32, keys.iter().map(term).sum()))
+        columns.map(move |keys| ((keys[0] >> 32) as u32, keys.iter().map(term).fold(V::default(), V::plus)))
     }
 }
 

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use faer::prelude::ReborrowMut;
 use faer::{Mat, MatMut, MatRef};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Arch, Scalar, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::Leading;
@@ -26,7 +26,7 @@ const WIDEST: usize = 8;
 /// # Panics
 /// Where the shapes differ.
 pub fn multiply<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>, y: MatMut<'_, f64>) {
-    sums(matrix.into(), x, [y], |product| [product]);
+    sums(matrix.into(), x, [y], Products);
 }
 
 /// A X as a new matrix, n × k.
@@ -41,7 +41,7 @@ pub fn product<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Mat<f6
 pub fn absolute_product<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>) -> Mat<f64> {
     let matrix = matrix.into();
     let mut y = Mat::zeros(matrix.rows(), x.ncols());
-    sums(matrix, x, [y.as_mut()], |product| [product.abs()]);
+    sums(matrix, x, [y.as_mut()], Sizes);
     y
 }
 
@@ -50,7 +50,7 @@ pub fn product_and_terms<'a>(matrix: impl Into<Leading<'a>>, x: MatRef<'_, f64>)
     let matrix = matrix.into();
     let zeros = || Mat::zeros(matrix.rows(), x.ncols());
     let (mut y, mut terms) = (zeros(), zeros());
-    sums(matrix, x, [y.as_mut(), terms.as_mut()], |product| [product, product.abs()]);
+    sums(matrix, x, [y.as_mut(), terms.as_mut()], ProductsAndSizes);
     (y, terms)
 }
 
@@ -62,13 +62,43 @@ pub fn panels(n_columns: usize) -> impl Iterator<Item = Range<usize>> {
     (0..n_columns).step_by(width).map(move |start| start..n_columns.min(start + width))
 }
 
+/// What is summed of the products of the entries of A with those of x: N terms of each.
+trait Terms<const N: usize>: Copy + Sync {
+    fn of<S: Simd>(self, simd: S, products: S::f64s) -> [S::f64s; N];
+}
+
+#[derive(Clone, Copy)]
+struct Products;
+
+impl Terms<1> for Products {
+    #[inline(always)]
+    fn of<S: Simd>(self, _: S, products: S::f64s) -> [S::f64s; 1] {
+        [products]
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Sizes;
+
+impl Terms<1> for Sizes {
+    #[inline(always)]
+    fn of<S: Simd>(self, simd: S, products: S::f64s) -> [S::f64s; 1] {
+        [simd.abs_f64s(products)]
+    }
+}
+
+#[derive(Clone, Copy)]
+struct ProductsAndSizes;
+
+impl Terms<2> for ProductsAndSizes {
+    #[inline(always)]
+    fn of<S: Simd>(self, simd: S, products: S::f64s) -> [S::f64s; 2] {
+        [products, simd.abs_f64s(products)]
+    }
+}
+
 /// N sums over each row: those of what `of` makes of the products of the entries of A with those of x.
-fn sums<const N: usize>(
-    matrix: Leading<'_>,
-    x: MatRef<'_, f64>,
-    mut y: [MatMut<'_, f64>; N],
-    of: impl Fn(f64) -> [f64; N] + Sync + Copy,
-) {
+fn sums<const N: usize>(matrix: Leading<'_>, x: MatRef<'_, f64>, mut y: [MatMut<'_, f64>; N], of: impl Terms<N>) {
     let n = matrix.rows();
     assert!(x.nrows() == n, "matrix of {n} columns times block of {} rows", x.nrows());
     for y in &y {
@@ -95,7 +125,7 @@ fn group_sums<const W: usize, const N: usize>(
     x: MatRef<'_, f64>,
     y: [MatMut<'_, f64>; N],
     packed: &mut Vec<Group<W>>,
-    of: impl Fn(f64) -> [f64; N] + Sync + Copy,
+    of: impl Terms<N>,
 ) {
     let stored = matrix.whole;
     pack(x, stored.rows(), packed);
@@ -140,25 +170,46 @@ struct RowSums<'a, const W: usize, const N: usize, F> {
     sums: &'a mut [[Group<W>; N]],
 }
 
-impl<const W: usize, const N: usize, F: Fn(f64) -> [f64; N]> WithSimd for RowSums<'_, W, N, F> {
+impl<const W: usize, const N: usize, F: Terms<N>> WithSimd for RowSums<'_, W, N, F> {
     type Output = ();
 
-    /// In the widest vectors that the processor has; a product and a sum are rounded one by one all the same.
+    /// In the widest vectors that the processor has and that a group fills; a product and a sum are rounded one by one all the same.
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
+        match W / S::F64_LANES {
+            1 => self.in_vectors::<S, 1>(simd),
+            2 => self.in_vectors::<S, 2>(simd),
+            _ => self.in_vectors::<Scalar, W>(Scalar),
+        }
+    }
+}
+
+impl<const W: usize, const N: usize, F: Terms<N>> RowSums<'_, W, N, F> {
+    /// With V vectors for a group.
+    #[inline(always)]
+    #[expect(clippy::needless_range_loop, reason = "a build with little optimisation calls what zips iterators")]
+    fn in_vectors<S: Simd, const V: usize>(self, simd: S) {
+        let packed = S::as_simd_f64s(self.packed.as_flattened()).0;
         for (bounds, sums) in self.pointers.windows(2).zip(self.sums) {
-            let row = bounds[0]..bounds[1];
             // Summed in a local, which stays in registers.
-            let mut row_sums = [[0.0; W]; N];
-            for (&col, &value) in self.indices[row.clone()].iter().zip(&self.data[row]) {
-                for (w, x) in self.packed[col as usize].iter().enumerate() {
-                    let terms = (self.of)(value * x);
-                    for (sums, term) in row_sums.iter_mut().zip(terms) {
-                        sums[w] += term;
+            let mut row_sums = [[simd.splat_f64s(0.0); N]; V];
+            let (indices, data) = (&self.indices[bounds[0]..bounds[1]], &self.data[bounds[0]..bounds[1]]);
+            for at in 0..indices.len() {
+                let value = simd.splat_f64s(data[at]);
+                let first = indices[at] as usize * V;
+                let x = &packed[first..first + V];
+                for v in 0..V {
+                    let terms = self.of.of(simd, simd.mul_f64s(value, x[v]));
+                    for n in 0..N {
+                        row_sums[v][n] = simd.add_f64s(row_sums[v][n], terms[n]);
                     }
                 }
             }
-            *sums = row_sums;
+            for (kind, sums) in sums.iter_mut().enumerate() {
+                for (to, sums) in S::as_mut_simd_f64s(sums).0.iter_mut().zip(&row_sums) {
+                    *to = sums[kind];
+                }
+            }
         }
     }
 }
