@@ -2158,6 +2158,24 @@ pub enum Error {
         /// Name of the load.
         load: String,
     },
+    /// The centrifugal load of a superelement: its mass does not tell where the mass inside it is.
+    #[entry(
+        "E-LOAD-CONDENSED",
+        InputData,
+        "name the load where the component itself is reduced; its superelement is a file of it"
+    )]
+    #[error(
+        "load `{load}` is that of a rotation – found the mass of a superelement, {}, which does not tell how far the \
+        mass inside is from the axis – name the rotation where the component itself is reduced, and take the load from \
+        its superelement by `file`",
+        path.display()
+    )]
+    LoadOfCondensed {
+        /// Name of the load.
+        load: String,
+        /// The superelement.
+        path: PathBuf,
+    },
     /// The square of a load leaves the range of double precision.
     #[entry("E-LOAD-RANGE", InputData, "check its numbers, or write it in other units")]
     #[error(
@@ -2884,11 +2902,13 @@ pub enum Error {
         "hold the component by `[[fixed]]` where its neighbours hold it, or reduce it at a state in which it is in tension"
     )]
     #[error(
-        "the preloaded component turns as a whole with the negative stiffness {energy:.1e} – expected none below -{noise:.1e} – compression \
-        has it while nothing holds the component, so that free modes and counts of modes are not those of a stable structure – hold it by \
-        [[fixed]] where its neighbours hold it, or reduce it at a state in which it is in tension"
+        "the preloaded component turns as a whole with the negative stiffness {energy:.1e} – expected none below -{noise:.1e} – {cause}, so \
+        that modes and counts of modes are not those of a stable structure – hold it by [[fixed]] where its neighbours hold it, or reduce \
+        it at a state in which it is in tension"
     )]
     NegativePreload {
+        /// Why, in words.
+        cause: &'static str,
         /// Rayleigh quotient of the motion, scaled.
         energy: f64,
         /// What rounding can make of it.

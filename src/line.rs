@@ -61,7 +61,7 @@ pub(crate) fn prepared(
     let faces = input::patch_faces(&job.model, &partition::patches(&model, job), &allowance)?;
     let (recovered, remark) = recovered.with_faces(&faces);
     facts.notes.extend(remark);
-    let loads = partition::loads(&model, &job.loads, &columns, &faces)?;
+    let loads = partition::loads(&model, (&job.loads, &job.added_masses), &columns, &faces)?;
     let modes = modes.map(|modes| partition::expansion_modes(&model, &modes)).transpose()?;
     let quantities = partition::quantities(&model, rows)?;
     let matrices = partition::further_matrices(&model, matrices)?;

@@ -206,3 +206,19 @@ fn matrix_text(block: impl Fn(f64) -> [[f64; 3]; 3]) -> String {
     }
     format!("%%MatrixMarket matrix coordinate real symmetric\n{} {} {n_entries}\n{lines}", 3 * n, 3 * n)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_read_is_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("rates.json");
+        assert!(kept(&file).is_empty());
+        for broken in ["", "[{]", "[{\"version\": 1}]", "{}", "\u{0}"] {
+            std::fs::write(&file, broken).expect("written");
+            assert!(kept(&file).is_empty(), "{broken}");
+        }
+    }
+}

@@ -147,14 +147,20 @@ fn refuse_other_superelements(
 /// The columns of the files of loads, one for each load that has a file.
 ///
 /// # Errors
-/// What [`columns_of_file`] refuses; [`Error::LoadKeys`].
+/// What [`columns_of_file`] refuses; [`Error::LoadKeys`]; [`Error::LoadOfCondensed`].
 pub fn load_columns(loads: &[LoadJob], input: &Input, allowance: &Allowance) -> Result<Vec<Option<LoadColumn>>> {
     let n_rows = input.n_file_rows();
     // Every file once, however many loads it has.
     let mut files: BTreeMap<&Path, Vec<(usize, WantedColumn<'_>)>> = BTreeMap::new();
     for (at, load) in loads.iter().enumerate() {
-        if let LoadPattern::File(path, column) = load.pattern()? {
-            files.entry(path).or_default().push((at, WantedColumn { load: &load.name, column }));
+        match load.pattern()? {
+            LoadPattern::File(path, column) => {
+                files.entry(path).or_default().push((at, WantedColumn { load: &load.name, column }));
+            }
+            LoadPattern::Rotation(_) if input.mass.layout == Some(Layout::Superelement) => {
+                return Err(Error::LoadOfCondensed { load: load.name.clone(), path: input.mass.path.clone() });
+            }
+            _ => {}
         }
     }
     let mut columns = vec![None; loads.len()];

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::banner::excerpt;
+use super::fortran::real;
 use super::source::{Source, read_error};
 use crate::error::{Error, Result};
 
@@ -180,16 +181,24 @@ impl Row<'_> {
         }
     }
 
-    /// A whole number.
+    /// A whole number, also one written as a real number: a table saved as one array has labels like `1.0e+01`.
     pub(super) fn integer(&self, column: usize) -> Result<i64> {
-        self.text(column).parse().map_err(|_| self.field_error(column, "a whole number"))
+        let text = self.text(column);
+        let whole = text.parse().ok().or_else(|| real(text.as_bytes()).and_then(whole_of));
+        whole.ok_or_else(|| self.field_error(column, "a whole number"))
     }
 
     /// A finite number.
     pub(super) fn number(&self, column: usize) -> Result<f64> {
-        let value = fast_float2::parse::<f64, _>(self.text(column)).ok().filter(|value| value.is_finite());
+        let value = real(self.text(column).as_bytes()).filter(|value| value.is_finite());
         value.ok_or_else(|| self.field_error(column, "a finite number"))
     }
+}
+
+/// The whole number that a double is; beyond 2⁵³ a neighbour may have been meant.
+fn whole_of(value: f64) -> Option<i64> {
+    const LAST_EXACT: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
+    (value.fract() == 0.0 && value.abs() < LAST_EXACT).then_some(value as i64)
 }
 
 /// Text that may be read up to a mark, which moves on with every row: a row is held whole, quoted or not.

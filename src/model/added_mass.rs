@@ -59,7 +59,7 @@ fn in_words(job: &AddedMassJob) -> Result<String> {
     let Some(inertia) = job.inertia.filter(|inertia| inertia.iter().any(|value| *value != 0.0)) else {
         return Ok(mass);
     };
-    let principal = dense::symmetric_eigen(tensor(inertia).as_ref())?.0;
+    let principal = dense::symmetric_eigen(inertia_tensor(inertia).as_ref())?.0;
     let [least, middle, most] = [0, 1, 2].map(|axis| principal[axis].max(0.0));
     let list = [least, middle, most].map(|value| number::quantity(value, 5)).join(", ");
     let is_of_body = most <= (1.0 + DIGITS) * (least + middle);
@@ -68,7 +68,7 @@ fn in_words(job: &AddedMassJob) -> Result<String> {
 }
 
 /// The symmetric matrix of xx, yy, zz, xy, yz, zx.
-fn tensor([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> Mat<f64> {
+pub(crate) fn inertia_tensor([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> Mat<f64> {
     Mat::from_fn(3, 3, |i, j| [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]][i][j])
 }
 
@@ -89,7 +89,7 @@ fn rows_of(input: &Input, job: &AddedMassJob) -> Result<BTreeMap<Direction, u32>
 /// The mass matrix of one mass.
 fn block(job: &AddedMassJob) -> Result<Mat<f64>> {
     let (m, [x, y, z]) = (job.mass, job.offset.unwrap_or_default());
-    let inertia = tensor(job.inertia.unwrap_or_default());
+    let inertia = inertia_tensor(job.inertia.unwrap_or_default());
     let least = dense::symmetric_eigen(inertia.as_ref())?.0[0];
     // A plate has no inertia to spare in one direction, and rounding may leave less than none.
     if least < -8.0 * f64::EPSILON * inertia.norm_max() {

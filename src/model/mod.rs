@@ -28,6 +28,7 @@ use crate::input::{ConstraintRows, Input, MatrixInput};
 use crate::sparse::{Leading, Precision, Rounding, SparseMatrix, diagonal};
 
 pub use added_mass::add_masses;
+pub(crate) use added_mass::inertia_tensor;
 pub use bodies::{Bodies, node_of_row};
 pub use finding::{ASYMMETRY_WARN, Finding};
 use finding_words::PENALTY;

@@ -5,6 +5,7 @@
 //! Tᵀf    n' × 1     on the dofs that move: rows of a rigid patch load its interface node
 //! f_p    n × 1      pressure p: −p ∫ N n dA over the faces of the mesh between some nodes
 //! f_ω    n × 1      centrifugal load per ω²: M p, p = (I − aaᵀ)(x − c) at the translations of a node at x, a the axis through c
+//! Δf, Δt 3 × 1      of an added mass m with its centre at x + r and the inertia J: m (I − aaᵀ) r, and r × Δf − a × J a about its node
 //! ```
 //! The mass that couples dofs that move with held ones takes part in M p, as it does in gravity. Each f is kept with its largest entry
 //! in [1, 2). Works are products of two loads over a stiffness, so that sizes are limited to [`EXPONENTS`].
@@ -16,11 +17,11 @@ use super::node_catalogue::NodeCatalogue;
 use super::pressure::pressed;
 use super::transformation::Transformation;
 use crate::dense;
-use crate::dofs::{Direction, Dof};
+use crate::dofs::{Direction, Dof, cross};
 use crate::error::{Error, Result};
 use crate::input::{LoadColumn, PatchFaces};
-use crate::job::{LoadJob, LoadPattern, NodeSelection, RotationJob};
-use crate::model::{Model, Site};
+use crate::job::{AddedMassJob, LoadJob, LoadPattern, NodeSelection, RotationJob};
+use crate::model::{Model, Site, inertia_tensor};
 use crate::sparse::product;
 
 /// Exponents of the largest entry of a load, in the user's units and relative to that of the stiffness: squares, and sums of them, are
@@ -118,15 +119,15 @@ impl Loads {
     }
 }
 
-/// The loads of a job on all rows of a model; `columns` are those of its files, one for each load that has one, and `faces` what the mesh
-/// tells of faces.
+/// The loads of a job on all rows of a model, whose mass has that of `added` already; `columns` are those of its files, one for each load that
+/// has one, and `faces` what the mesh tells of faces.
 ///
 /// # Errors
 /// Nodes that do not exist or lack a direction of the force, a selection without nodes; a rotation without coordinates; a pressure without
 /// faces; a force on a row that was dropped; a load of nothing.
 pub fn loads(
     model: &Model,
-    jobs: &[LoadJob],
+    (jobs, added): (&[LoadJob], &[AddedMassJob]),
     columns: &[Option<LoadColumn>],
     faces: &[PatchFaces],
 ) -> Result<Vec<RowLoad>> {
@@ -147,7 +148,7 @@ pub fn loads(
             (LoadPattern::File(..), Some(column)) => (of_file(model, job, column)?, 1.0, "file".to_owned()),
             (LoadPattern::File(..), None) => (vec![0.0; model.n_dofs()], 1.0, "file".to_owned()),
             (LoadPattern::Rotation(rotation), _) => {
-                (centrifugal(model, job, rotation)?, model.scaling.mass_unit(), "rotation, per ω²".to_owned())
+                (centrifugal(model, job, (rotation, added))?, model.scaling.mass_unit(), "rotation, per ω²".to_owned())
             }
         };
         in_own_unit(model, (job, source), (values, unit))
@@ -227,8 +228,8 @@ fn of_file(model: &Model, job: &LoadJob, column: &LoadColumn) -> Result<Vec<f64>
     Ok(values)
 }
 
-/// M p, in the scaled units of M.
-fn centrifugal(model: &Model, job: &LoadJob, rotation: &RotationJob) -> Result<Vec<f64>> {
+/// M p, and what the centres of added masses are off their nodes, in the scaled units of M.
+fn centrifugal(model: &Model, job: &LoadJob, (rotation, added): (&RotationJob, &[AddedMassJob])) -> Result<Vec<f64>> {
     let sites = model.sites().ok_or_else(|| Error::LoadNeedsCoordinates { load: job.name.clone() })?;
     // Scaled first, so that the square of its length is a number.
     let largest = rotation.axis.iter().fold(0.0f64, |max, value| max.max(value.abs()));
@@ -242,5 +243,25 @@ fn centrifugal(model: &Model, job: &LoadJob, rotation: &RotationJob) -> Result<V
         let along: f64 = arm.iter().zip(axis).map(|(arm, axis)| arm * axis).sum();
         if direction.is_rotation() { 0.0 } else { arm[direction.axis()] - along * axis[direction.axis()] }
     });
-    Ok(dense::column(product(&model.mass, displacement.as_ref()).as_ref(), 0).to_vec())
+    let mut force = dense::column(product(&model.mass, displacement.as_ref()).as_ref(), 0).to_vec();
+    for mass in added {
+        let at_node = of_offset(mass, axis);
+        let of_row = |dof: &Option<Dof>| dof.filter(|dof| dof.node == mass.node).map(|dof| dof.direction);
+        for (row, direction) in model.dofs.iter().flatten().map(of_row).enumerate() {
+            force[row] += direction.map_or(0.0, |direction| at_node[direction as usize] / model.scaling.mass_unit());
+        }
+    }
+    Ok(force)
+}
+
+/// Force and moment at the node of an added mass beyond those that its mass has at the node itself.
+fn of_offset(mass: &AddedMassJob, axis: [f64; 3]) -> [f64; 6] {
+    let arm = mass.offset.unwrap_or_default();
+    let along = dense::dot(&arm, &axis);
+    let [fx, fy, fz] = std::array::from_fn(|i| mass.mass * (arm[i] - along * axis[i]));
+    let inertia = inertia_tensor(mass.inertia.unwrap_or_default());
+    let momentum = std::array::from_fn(|i| (0..3).map(|j| inertia[(i, j)] * axis[j]).sum());
+    let (of_force, of_inertia) = (cross(arm, [fx, fy, fz]), cross(axis, momentum));
+    let [tx, ty, tz] = std::array::from_fn(|i| of_force[i] - of_inertia[i]);
+    [fx, fy, fz, tx, ty, tz]
 }

@@ -71,7 +71,8 @@ pub(crate) fn mass_difference(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> (f64, (
     let has_inertia = |i: usize| b[(i, i)] > least;
     for j in 0..b.ncols() {
         for i in 0..=j {
-            let difference = (a[(i, j)] - b[(i, j)]).abs();
+            // Either triangle: the numbers of a file need not be symmetric.
+            let difference = dense::worst([(i, j), (j, i)].map(|at| (a[at] - b[at]).abs()));
             let error = match has_inertia(i) && has_inertia(j) {
                 true => difference / (b[(i, i)] * b[(j, j)]).sqrt(),
                 false if difference.powi(2) <= b[(i, i)].max(least) * b[(j, j)].max(least) => 0.0,

@@ -96,6 +96,9 @@ fn node_tables_in_any_dress() {
         "z;group;NODE;x;y\n3;skin;4;1.0;2e0\n",
         "\u{feff}\"node\"\t\"x\"\t\"y\"\t\"z\"\r\n4\t1\t2\t3\r\n",
         "# node, x, y, z\n4, 1, 2, 3\n",
+        // As Fortran writes numbers, and as a table looks that was saved as one array.
+        "node,x,y,z\n4,1.D0,0.2D+01,3.0\n",
+        "node,x,y,z\n4.000000000000000000e+00,1.000000000000000000e+00,2.0e+00,3.0e+00\n",
     ];
     for text in tables {
         let input = read_tables(3, None, Some(text.as_bytes())).expect("a model");
@@ -103,6 +106,15 @@ fn node_tables_in_any_dress() {
         assert_eq!((nodes.labels, nodes.coordinates), (vec![4], vec![[1.0, 2.0, 3.0]]), "{text}");
     }
     assert!(read_tables(3, None, Some(&gzip(tables[0].as_bytes()))).is_ok());
+}
+
+#[test]
+fn a_label_that_is_no_whole_number() {
+    for label in ["4.5", "1e300", "9007199254740993.0", "inf", ""] {
+        let table = format!("node,x,y,z\n{label},1,2,3\n");
+        let error = read_tables(3, None, Some(table.as_bytes())).expect_err("an error");
+        assert!(error.to_string().contains("expected a whole number"), "{label}: {error}");
+    }
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Loads that the job names: what the superelement has of them.
 
+mod centrifugal;
 #[cfg(feature = "hdf5")]
 mod pressure;
 mod refused;

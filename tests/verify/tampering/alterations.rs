@@ -322,6 +322,17 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
         alter: |t, _| t.rigid_body_mass.cols() > 0 && scaled(&mut t.rigid_body_mass, (0, 0), SLIGHTLY),
     },
     Alteration {
+        field: "rigid_body_mass",
+        what: "one of two mirrored entries × (1 + 1e-6)",
+        alter: |t, _| {
+            let n = t.rigid_body_mass.cols();
+            largest(&t.rigid_body_mass, 0..n, 0..n).is_some_and(|(i, j)| {
+                let below = (i.max(j), i.min(j));
+                entry(&mut t.rigid_body_mass, below, SLIGHTLY)
+            })
+        },
+    },
+    Alteration {
         field: "interface_positions",
         what: "moved by 1e-6 of the distance, with the node",
         alter: |t, m| {

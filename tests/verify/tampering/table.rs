@@ -125,7 +125,7 @@ impl Known {
         let (recovered, _) = recovered.with_faces(&faces);
         let of_job = quantities(&model, rows).expect("rows");
         let matrices = further_matrices(&model, matrices).expect("rows");
-        let row_loads = loads(&model, &job.loads, &columns, &faces).expect("nodes");
+        let row_loads = loads(&model, (&job.loads, &job.added_masses), &columns, &faces).expect("nodes");
         let modes = modes.map(|modes| expansion_modes(&model, &modes).expect("modes"));
         let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
         if let Some(modes) = modes {
