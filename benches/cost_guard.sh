@@ -30,8 +30,10 @@ job() {
     "${counting[@]}" "$supel" reduce "$folder/job.toml" --quiet --threads 1 --method "$method"
 }
 
-job lattice lattice herting ''
+job lattice lattice herting '' &
+lattice=$!
 job solid bulky craig-bampton '\n[scene]\nboundaries = []\n'
+wait "$lattice"
 
 python3 - "$work" "$values" "${1:-compare}" "$(rustc --version)" <<'PYTHON'
 import json, pathlib, re, sys
