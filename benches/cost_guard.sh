@@ -12,7 +12,9 @@ cd "$(dirname "$0")/.."
 readonly values=benches/cost_guard.json
 readonly supel=target/debug/supel
 
-# As the tests are built, so that after them there is nothing to do; these two need both programs.
+# As `.ci/run` builds the tests, so that after them there is nothing to do; these two need both programs. Instructions depend on how a
+# crate is cut into units.
+export CARGO_INCREMENTAL=0 CARGO_PROFILE_DEV_DEBUG=none CARGO_PROFILE_DEV_CODEGEN_UNITS=4
 cargo test --quiet --workspace --locked --features supel-models/med,supel-runtime/capi,validation/vtkhdf --no-run --test readme --test parts
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
