@@ -185,9 +185,8 @@ impl<const W: usize, const N: usize, F: Terms<N>> WithSimd for RowSums<'_, W, N,
 }
 
 impl<const W: usize, const N: usize, F: Terms<N>> RowSums<'_, W, N, F> {
-    /// With V vectors for a group.
+    /// With V vectors for a group. Loops count, because a build with little optimisation calls what zips iterators.
     #[inline(always)]
-    #[expect(clippy::needless_range_loop, reason = "a build with little optimisation calls what zips iterators")]
     fn in_vectors<S: Simd, const V: usize>(self, simd: S) {
         let packed = S::as_simd_f64s(self.packed.as_flattened()).0;
         for (bounds, sums) in self.pointers.windows(2).zip(self.sums) {
