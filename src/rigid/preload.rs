@@ -15,7 +15,7 @@ use crate::model::Frame;
 use crate::partition::Partition;
 use crate::sparse::{absolute_energy, energies_of_terms, product_and_terms};
 
-use super::energy::{zero_energies, zero_energy};
+use super::energy::zero_energy;
 
 /// Combinations of some motions of a body that make no force; `frame` is that of the body.
 ///
@@ -31,23 +31,16 @@ pub(super) fn without_force(partition: &Partition, motions: Mat<f64>, frame: &Fr
     let n_rows = motions.nrows().max(motions.ncols());
     let scaled =
         |a: &Mat<f64>| Mat::from_fn(n_rows, a.ncols(), |i, j| if i < a.nrows() { scale[i] * a[(i, j)] } else { 0.0 });
-    let (scaled_forces, scaled_terms) = (scaled(&forces), scaled(&terms));
-    let size = scaled_terms.col_iter().map(|column| column.norm_l2()).fold(0.0, f64::max);
-    let energies = dense::dots(motions.as_ref(), forces.as_ref());
-    let levels = zero_energies(partition, motions.as_ref(), terms.as_ref());
+    let (forces, terms) = (scaled(&forces), scaled(&terms));
+    let size = (0..terms.ncols()).map(|j| dense::norm(dense::column(terms.as_ref(), j))).fold(0.0, f64::max);
     // Levers of a body far from the origin are rounded as the distance is.
     let far = 1.0 + dense::norm(&frame.centre) / frame.size;
     let rounding = partition.precision.stiffness.share + f64::EPSILON * far;
     let zero = NOISE_FACTOR * partition.cancellation * rounding * size;
-    // Translations that are free by themselves stay as they are, to the bit. Next to a rotation that turns the internal forces, rounding of
-    // their force would be made up for by a turn. Axes of nodes put that of a stiff direction where soft rows are, and not into the energy.
-    let costs_nothing: Vec<bool> = energies.iter().zip(&levels).map(|(energy, level)| energy.abs() <= *level).collect();
-    let is_alone = |j: &usize| {
-        let is_translation = motions.ncols() == 6 && *j < 3;
-        dense::norm(dense::column(scaled_forces.as_ref(), *j)) <= zero || (is_translation && costs_nothing[*j])
-    };
+    // Translations that are free by themselves stay as they are, to the bit.
+    let is_alone = |j: &usize| dense::norm(dense::column(forces.as_ref(), *j)) <= zero;
     let (alone, others): (Vec<usize>, Vec<usize>) = (0..motions.ncols()).partition(is_alone);
-    let (singular, v) = dense::right_singular(dense::columns(scaled_forces.as_ref(), &others).as_ref())?;
+    let (singular, v) = dense::right_singular(dense::columns(forces.as_ref(), &others).as_ref())?;
     let free: Vec<usize> = (0..singular.len()).filter(|j| singular[*j] <= zero).collect();
     let combined =
         dense::product(dense::columns(motions.as_ref(), &others).as_ref(), dense::columns(v.as_ref(), &free).as_ref());

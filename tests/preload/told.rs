@@ -1,8 +1,6 @@
 //! What report, page, `inspect` and `verify` say of a preloaded state, and what assemblies make of it.
 
 use supel::cli::ExitCode;
-use supel_models::Model;
-use supel_models::transform::{in_local_frames, rounded};
 use supel_runtime::{Flag, MassProperties, Superelement};
 use supel_testing::pencil::{eigen, matrices, part};
 use supel_testing::place::{supel, supel_as_typed};
@@ -225,39 +223,4 @@ fn exported_matrices_have_no_job() {
         .collect();
     assert!(names.iter().any(|name| name.ends_with("stiffness.mtx")), "{names:?}");
     assert!(!names.iter().any(|name| name.ends_with("job.toml")), "{names:?}");
-}
-
-/// Axes of nodes put rounding of stiff directions where soft rows are, and a turn of the internal forces would make up for that of a
-/// translation: translations are what they are, and all looks at them agree.
-#[test]
-fn translations_are_those_of_coordinates_whatever_digits_say() {
-    const AXES: [[f64; 3]; 3] =
-        [[2.0 / 7.0, 3.0 / 7.0, 6.0 / 7.0], [3.0 / 7.0, -6.0 / 7.0, 2.0 / 7.0], [6.0 / 7.0, 2.0 / 7.0, -3.0 / 7.0]];
-    let network = tower(Nodes::Bodies, 1e-3);
-    let is_turned = |node: i64| node % 3 == 1;
-    let local = in_local_frames(&network.model, &AXES, is_turned);
-    let mut forces = network.forces.clone();
-    for (at, three) in forces.chunks_exact_mut(3).enumerate() {
-        if is_turned(network.model.dofs[3 * at].0) {
-            let global = [three[0], three[1], three[2]];
-            (0..3).for_each(|i| three[i] = (0..3).map(|j| AXES[i][j] * global[j]).sum());
-        }
-    }
-    let table = (1..=12).filter(|node| is_turned(*node)).map(|node| {
-        let [x, y, _] = AXES.map(|axis| axis.map(|value| format!("{value:?}")).join(","));
-        format!("{node},{x},{y}\n")
-    });
-    let table = format!("node,x1,x2,x3,y1,y2,y3\n{}", table.collect::<String>());
-    for (digits, method) in [(9, "herting"), (8, "herting"), (9, "craig-bampton"), (8, "craig-bampton")] {
-        let model = Model { mass: local.mass.clone(), ..rounded(&local, digits) };
-        let turned = Network { model, forces: forces.clone(), springs: Vec::new(), ..tower(Nodes::Bodies, 1e-3) };
-        let model_keys = format!(r#"{PRELOADED}, frames = "frames.csv""#);
-        let reduction = format!(r#"method = "{method}", modes = {{ count = 6 }}"#);
-        let place = place_of(&turned, &turned.forces, (&model_keys, r#"{ name = "one", nodes = [1] }"#), &reduction);
-        place.write("frames.csv", table.as_bytes());
-        reduced(&place).expect(ExitCode::Done);
-        let file = place.text("x.supel");
-        supel(&["verify", &file]).expect(ExitCode::Done);
-        supel(&["verify", &file, "--job", &place.text("job.toml")]).expect(ExitCode::Done);
-    }
 }
