@@ -1,6 +1,6 @@
 //! FRAME: Euler-Bernoulli beams in space, six dofs a node.
 
-use crate::model::{Assembler, Material, Model};
+use crate::model::{Assembler, Material, Model, cross};
 use crate::two_node::{Element, add_rod, place, to_global};
 
 /// Cross-section of a beam.
@@ -125,10 +125,6 @@ fn local_axes(x: [f64; 3]) -> [[f64; 3]; 3] {
     let z = cross(x, reference);
     let z = z.map(|c| c / norm(z));
     [x, cross(z, x), z]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3])
 }
 
 fn norm(a: [f64; 3]) -> f64 {

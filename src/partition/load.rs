@@ -239,9 +239,8 @@ fn centrifugal(model: &Model, job: &LoadJob, (rotation, added): (&RotationJob, &
     let displacement = Mat::from_fn(sites.len(), 1, |row, _| {
         // What no node has is nowhere.
         let Some(Site { position, direction }) = sites[row] else { return 0.0 };
-        let arm: [f64; 3] = std::array::from_fn(|i| position[i] - rotation.through[i]);
-        let along: f64 = arm.iter().zip(axis).map(|(arm, axis)| arm * axis).sum();
-        if direction.is_rotation() { 0.0 } else { arm[direction.axis()] - along * axis[direction.axis()] }
+        let arm = std::array::from_fn(|i| position[i] - rotation.through[i]);
+        if direction.is_rotation() { 0.0 } else { across(arm, axis)[direction.axis()] }
     });
     let mut force = dense::column(product(&model.mass, displacement.as_ref()).as_ref(), 0).to_vec();
     for mass in added {
@@ -254,11 +253,16 @@ fn centrifugal(model: &Model, job: &LoadJob, (rotation, added): (&RotationJob, &
     Ok(force)
 }
 
+/// (I − aaᵀ) r.
+fn across(arm: [f64; 3], axis: [f64; 3]) -> [f64; 3] {
+    let along: f64 = arm.iter().zip(axis).map(|(arm, axis)| arm * axis).sum();
+    std::array::from_fn(|i| arm[i] - along * axis[i])
+}
+
 /// Force and moment at the node of an added mass beyond those that its mass has at the node itself.
 fn of_offset(mass: &AddedMassJob, axis: [f64; 3]) -> [f64; 6] {
     let arm = mass.offset.unwrap_or_default();
-    let along = dense::dot(&arm, &axis);
-    let [fx, fy, fz] = std::array::from_fn(|i| mass.mass * (arm[i] - along * axis[i]));
+    let [fx, fy, fz] = across(arm, axis).map(|way| mass.mass * way);
     let inertia = inertia_tensor(mass.inertia.unwrap_or_default());
     let momentum = std::array::from_fn(|i| (0..3).map(|j| inertia[(i, j)] * axis[j]).sum());
     let (of_force, of_inertia) = (cross(arm, [fx, fy, fz]), cross(axis, momentum));

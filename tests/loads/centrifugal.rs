@@ -1,6 +1,7 @@
 //! The centrifugal load of masses that are not where their rows are.
 
 use supel::cli::ExitCode;
+use supel_models::model::cross;
 use supel_runtime::{Coordinate, Superelement};
 use supel_testing::place::{Place, supel};
 
@@ -13,10 +14,6 @@ const NODE: [f64; 3] = [2.1, 2.8, 0.3];
 /// Four masses, and where they are from the node.
 const POINTS: [(f64, [f64; 3]); 4] =
     [(300.0, [0.5, 0.1, -0.3]), (150.0, [0.1, 0.4, 0.2]), (200.0, [-0.2, 0.3, 0.6]), (100.0, [0.3, 0.3, 0.1])];
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
 
 /// The job of the elbow whose end at node 6 is an interface, with more of it.
 fn job(more: &str) -> String {
@@ -85,7 +82,7 @@ fn an_added_mass_pulls_where_its_centre_is() {
         // Sums of some ten products of the size of the largest.
         let largest = expected.iter().chain(&without).fold(0.0f64, |max, value| max.max(value.abs()));
         let error = (with[i] - without[i] - expected[i]).abs() / largest;
-        assert!(error < 1e-13, "{i}: {} beside {}", with[i] - without[i], expected[i]);
+        assert!(error < 1e-13, "{i}: found {}, expected {}", with[i] - without[i], expected[i]);
     }
 }
 

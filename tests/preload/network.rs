@@ -8,6 +8,7 @@
 
 use std::array::from_fn;
 
+use supel_models::model::cross;
 use supel_models::{Assembler, Model, SplitMix64};
 
 type Vector = [f64; 3];
@@ -181,10 +182,6 @@ fn minus(a: Vector, b: Vector) -> Vector {
 
 fn dot(a: Vector, b: Vector) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 fn length(a: Vector) -> f64 {

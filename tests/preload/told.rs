@@ -215,8 +215,14 @@ fn exported_matrices_have_no_job() {
     let made = made(&tower(Nodes::Points, STRAIN), ENDS, HERTING);
     let folder = made.place.text("again");
     std::fs::create_dir(&folder).expect("made");
-    supel(&["export", &made.place.text("x.supel"), "--to", "matrix-market", "--output", &folder])
-        .expect(ExitCode::Done);
+    let flags = ["export", &made.place.text("x.supel"), "--to", "matrix-market", "--output", &folder];
+    let ended = supel(&flags).expect(ExitCode::Done);
+    assert!(
+        !format!("{}{}", ended.out, ended.err).contains("held dofs"),
+        "nothing is held: {}{}",
+        ended.out,
+        ended.err
+    );
     let names: Vec<String> = std::fs::read_dir(&folder)
         .expect("a folder")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())

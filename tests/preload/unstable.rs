@@ -143,3 +143,18 @@ fn i_13_a_negative_diagonal_of_a_preloaded_state() {
         }
     }
 }
+
+/// Far beyond buckling even the motion of all that moves as a whole has negative energy, although the foot is held: the message does not say
+/// that nothing holds it.
+#[test]
+fn a_held_component_that_turns_as_a_whole_is_not_told_to_be_free() {
+    let interface = "{ name = \"tip\", nodes = [11, 12] }]\nfixed = [{ nodes = [1, 2, 3] }";
+    let said = [-0.2, -0.4, -0.8].into_iter().find_map(|strain| {
+        let network = tower(Nodes::Points, strain);
+        let ended = reduced(&place_of(&network, &network.forces, (PRELOADED, interface), METHODS[0]));
+        assert_eq!(ended.code, ExitCode::ModelPhysics, "{strain}: {}{}", ended.out, ended.err);
+        ended.err.contains("E-PRELOAD-NEGATIVE").then_some(ended.err)
+    });
+    let said = said.expect("a tower that turns as a whole");
+    assert!(said.contains("buckles as it is held") && !said.contains("nothing holds"), "{said}");
+}
