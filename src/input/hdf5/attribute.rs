@@ -20,11 +20,12 @@ fn find(h5: &H5, location: &Location, object: &str, name: &str) -> Result<Option
         return Ok(None);
     }
     let attribute = location.attr(name).map_err(|e| h5.read_error(object, &e))?;
-    let n_values = attribute.shape().iter().try_fold(1_usize, |n, &d| n.checked_mul(d));
+    let shape = attribute.get_shape().map_err(|e| h5.read_error(object, &e))?;
+    let n_values = shape.iter().try_fold(1_usize, |n, &d| n.checked_mul(d));
     if n_values.is_some_and(|n| n <= MAX_VALUES) {
         return Ok(Some(attribute));
     }
-    let found = format!("shape {:?}", attribute.shape());
+    let found = format!("shape {shape:?}");
     let expected = format!("at most {MAX_VALUES} values in an attribute");
     Err(Error::Hdf5Shape { path: h5.path().to_owned(), object: format!("{object}@{name}"), found, expected })
 }

@@ -15,7 +15,7 @@ pub(super) fn tags_of(group: Option<Group<'_>>) -> Result<Tags> {
             continue;
         }
         let dataset = group.dataset(&name)?;
-        if dataset.shape()?.len() == 1 && dataset.is_whole() {
+        if dataset.shape()?.len() == 1 && dataset.is_whole()? {
             tags.insert(name, dataset.integers()?);
         }
     }

@@ -55,10 +55,8 @@ pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
 pub(super) fn read_cells(root: &Group<'_>, faces: &mut Gathered<'_>) -> Result<Known> {
     let mut first = 0;
     for zone in zones(root)? {
-        if zone
-            .find_dataset(DATA)?
-            .is_some_and(|sizes| sizes.shape().is_ok_and(|shape| shape.iter().product::<usize>() != 3))
-        {
+        let n_sizes = zone.find_dataset(DATA)?.map(|sizes| sizes.shape()).transpose()?;
+        if n_sizes.is_some_and(|shape| shape.iter().product::<usize>() != 3) {
             return Ok(Known::Not("a structured zone".to_owned()));
         }
         let n_nodes = points_of(&zone)?.0.len();

@@ -79,8 +79,17 @@ impl<'a> Dataset<'a> {
     }
 
     /// Whether its values are whole numbers.
-    pub(super) fn is_whole(&self) -> bool {
-        matches!(numbers::descriptor(&self.dataset), Ok(TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_)))
+    pub(super) fn is_whole(&self) -> Result<bool> {
+        Ok(matches!(self.descriptor()?, Some(TypeDescriptor::Integer(_) | TypeDescriptor::Unsigned(_))))
+    }
+
+    /// The type of the values; `None` where it is one that has no name here.
+    fn descriptor(&self) -> Result<Option<TypeDescriptor>> {
+        match numbers::descriptor(&self.dataset) {
+            Ok(descriptor) => Ok(Some(descriptor)),
+            Err(Refusal::Library(e)) => Err(self.read_error(&e)),
+            Err(_) => Ok(None),
+        }
     }
 
     /// All records, of exactly this layout.
@@ -119,7 +128,7 @@ impl<'a> Dataset<'a> {
     /// A table of characters, a row for each name; empty where characters are stored in another way.
     pub(super) fn short_names(&self) -> Result<Vec<String>> {
         let shape = self.shape()?;
-        let (&[_, length], Ok(TypeDescriptor::FixedAscii(1))) = (&shape[..], numbers::descriptor(&self.dataset)) else {
+        let (&[_, length], Some(TypeDescriptor::FixedAscii(1))) = (&shape[..], self.descriptor()?) else {
             return Ok(Vec::new());
         };
         self.checked_len()?;
@@ -163,7 +172,8 @@ impl<'a> Dataset<'a> {
         }
         let ratio = self.check_storage()?;
         let available = self.dataset.storage_size().min(self.h5.n_bytes()).saturating_mul(ratio);
-        let chunk = self.dataset.chunk().unwrap_or_default();
+        let chunk = self.dataset.dcpl().and_then(|plist| plist.get_chunk()).map_err(|e| self.read_error(&e))?;
+        let chunk = chunk.unwrap_or_default();
         let chunk_bytes = chunk.iter().try_fold(item, |n, &d| n.checked_mul(d as u64));
         let chunk_fits = chunk_bytes.is_some_and(|n| n <= self.h5.n_bytes().saturating_mul(ratio));
         match (n_values, n_bytes) {

@@ -80,8 +80,12 @@ pub(crate) fn start() -> Result<()> {
 
 /// The error of the library where it had no memory: its own words do not tell that from a damaged file.
 fn no_memory(error: &hdf5_metno::Error) -> Option<Error> {
-    let is_out = error.contains_minor(MinorErrorCode::NoSpace) || error.contains_major(MajorErrorCode::Resource);
-    is_out.then_some(NO_MEMORY)
+    is_out_of_memory(error).then_some(NO_MEMORY)
+}
+
+/// Whether the library failed because it had no memory.
+pub(super) fn is_out_of_memory(error: &hdf5_metno::Error) -> bool {
+    error.contains_minor(MinorErrorCode::NoSpace) || error.contains_major(MajorErrorCode::Resource)
 }
 
 const NO_MEMORY: Error = Error::OutOfMemory { what: "what the HDF5 library needs to read the input" };

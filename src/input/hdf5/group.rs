@@ -25,7 +25,7 @@ pub(super) enum Member {
     Dataset,
     /// A soft, external or user-defined link.
     Link,
-    /// A committed datatype, or an object the library cannot describe.
+    /// A committed datatype.
     Other,
 }
 
@@ -56,12 +56,12 @@ impl<'a> Group<'a> {
     /// Names and kinds of all members, sorted by name.
     pub(super) fn members(&self) -> Result<Vec<(String, Member)>> {
         let links = self.links()?;
-        Ok(links.iter().map(|(name, link)| (name.clone(), self.classify(name, *link))).collect())
+        links.iter().map(|(name, link)| Ok((name.clone(), self.classify(name, *link)?))).collect()
     }
 
     /// What `member` is; `None` if there is nothing of that name.
     pub(super) fn member(&self, member: &str) -> Result<Option<Member>> {
-        Ok(self.links()?.get(member).map(|link| self.classify(member, *link)))
+        self.links()?.get(member).map(|link| self.classify(member, *link)).transpose()
     }
 
     /// All links, listed once.
@@ -158,14 +158,15 @@ impl<'a> Group<'a> {
         Ok(Group { h5: self.h5, group, name })
     }
 
-    fn classify(&self, member: &str, link: LinkType) -> Member {
+    fn classify(&self, member: &str, link: LinkType) -> Result<Member> {
         if link != LinkType::Hard {
-            return Member::Link;
+            return Ok(Member::Link);
         }
         match self.group.loc_type_by_name(member) {
-            Ok(LocationType::Group) => Member::Group,
-            Ok(LocationType::Dataset) => Member::Dataset,
-            _ => Member::Other,
+            Ok(LocationType::Group) => Ok(Member::Group),
+            Ok(LocationType::Dataset) => Ok(Member::Dataset),
+            Ok(_) => Ok(Member::Other),
+            Err(e) => Err(self.h5.read_error(&self.child_name(member), &e)),
         }
     }
 

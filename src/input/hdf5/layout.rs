@@ -35,8 +35,7 @@ fn has_group(root: &Group<'_>, name: &str) -> Result<bool> {
 /// # Errors
 /// [`Error::MeshUnknown`] where the file has none of them; those of reading.
 pub(super) fn of(root: &Group<'_>) -> Result<&'static Layout> {
-    // The library says of a group that it has no memory to look up that it is not there: what nothing recognises is looked at again.
-    for layout in LAYOUTS.iter().chain(&LAYOUTS) {
+    for layout in &LAYOUTS {
         if (layout.is_of)(root)? {
             return Ok(layout);
         }

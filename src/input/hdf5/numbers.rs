@@ -7,8 +7,9 @@
 use std::io::Cursor;
 
 use hdf5_metno::types::{FixedAscii, FloatSize, IntSize, TypeDescriptor};
-use hdf5_metno::{Container, H5Type};
+use hdf5_metno::{Container, Datatype, H5Type};
 
+use super::file::is_out_of_memory;
 use super::other_types;
 use crate::input::raw_numbers::{self, Endian, Failure, Kind};
 
@@ -131,7 +132,7 @@ pub(super) fn characters(container: &Container) -> Result<Vec<u8>, Refusal> {
 /// All values of this type, of whose texts the library alone knows how they end: every number must be one of this machine's.
 pub(super) fn read_with_text<T: H5Type>(container: &Container) -> Result<Vec<T>, Refusal> {
     let datatype = container.dtype().map_err(Refusal::Library)?;
-    let found = datatype.to_descriptor().map_err(|e| Refusal::Type(e.to_string()))?;
+    let found = described(&datatype)?;
     if found != T::type_descriptor() || datatype.size() != size_of::<T>() {
         return Err(Refusal::Type(found.to_string()));
     }
@@ -141,7 +142,13 @@ pub(super) fn read_with_text<T: H5Type>(container: &Container) -> Result<Vec<T>,
 /// The type of the values.
 pub(super) fn descriptor(container: &Container) -> Result<TypeDescriptor, Refusal> {
     let datatype = container.dtype().map_err(Refusal::Library)?;
-    datatype.to_descriptor().map_err(|e| Refusal::Type(e.to_string()))
+    described(&datatype)
+}
+
+fn described(datatype: &Datatype) -> Result<TypeDescriptor, Refusal> {
+    let refusal =
+        |e: hdf5_metno::Error| if is_out_of_memory(&e) { Refusal::Library(e) } else { Refusal::Type(e.to_string()) };
+    datatype.to_descriptor().map_err(refusal)
 }
 
 fn widened<T: H5Type, U: From<T>>(container: &Container) -> Result<Vec<U>, Refusal> {
