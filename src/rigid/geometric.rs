@@ -4,7 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::algebraic;
 use super::energy::{residuals, zero_energies};
-use super::preload;
+use super::preload::{self, WithoutForce};
 use super::rank::scales;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
 use crate::dense::{self, NOISE_FACTOR};
@@ -136,11 +136,13 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
     let mut centred = partition.rigid_motions(dofs, frame.centre);
     centred.as_mut().subcols_mut(3, 3).col_iter_mut().for_each(|mut rotation| rotation /= faer::Scale(frame.size));
     let moving = moving_directions(centred.as_ref())?;
-    let mut motions = dense::product(centred.as_ref(), moving.as_ref());
-    if partition.fit.is_preloaded() {
-        motions = preload::without_force(partition, motions, &frame)?;
-    }
-    let (orthonormal, massless) = free_motions(partition, motions.as_ref())?;
+    let motions = dense::product(centred.as_ref(), moving.as_ref());
+    let (orthonormal, massless) = if partition.fit.is_preloaded() {
+        let motions = preload::without_force(partition, motions.as_ref(), moving.as_ref(), &frame)?;
+        free_of_preloaded(partition, &motions)?
+    } else {
+        free_motions(partition, motions.as_ref())?
+    };
     let orthonormal = settled(partition, orthonormal);
     let energy = energy_of(partition, orthonormal.as_ref());
     // Were all six of a preloaded component free, the preload would show in rotations of its parts alone.
@@ -189,6 +191,24 @@ fn free_motions(partition: &Partition, motions: MatRef<'_, f64>) -> Result<(Mat<
         return Ok((massive, massless));
     }
     Ok((found[0].free(), found[1].free()))
+}
+
+/// The motions of a preloaded body that cost no energy. Where rounding hid the force of a rotation and not its energy, what is left are the
+/// translations as they are: the combinations of least energy have as much of that rotation as rounding of the translations' own forces makes.
+fn free_of_preloaded(partition: &Partition, motions: &WithoutForce) -> Result<(Mat<f64>, Mat<f64>)> {
+    let all = motions.all();
+    let combined = free_motions(partition, all.as_ref())?;
+    let n_free = combined.0.ncols() + combined.1.ncols();
+    if n_free == all.ncols() {
+        return Ok(combined);
+    }
+    let (massive, massless) = mass_orthonormal(&partition.mass, motions.others.as_ref(), 0.0)?;
+    let others = [massive, massless].map(|motions| Energies::of(partition, motions.as_ref()).map(|e| e.free()));
+    let [massive, massless] = others;
+    let (massive, massless) = (massive?, massless?);
+    let n = all.nrows();
+    let apart = dense::concatenated(n, [&motions.translations, &massive, &massless].map(|motions| motions.as_ref()));
+    if apart.ncols() == n_free { free_motions(partition, apart.as_ref()) } else { Ok(combined) }
 }
 
 /// Whether motions that cost more than the digits of K explain are zero modes of K all the same: coordinates have digits too, and in a

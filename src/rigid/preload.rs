@@ -17,16 +17,36 @@ use crate::sparse::{absolute_energy, energies_of_terms, product_and_terms};
 
 use super::energy::zero_energy;
 
-/// Combinations of some motions of a body that make no force; `frame` is that of the body.
+/// Motions of a preloaded body that make no force.
+pub(super) struct WithoutForce {
+    /// Translations, each of them by itself.
+    pub(super) translations: Mat<f64>,
+    /// Combinations of the rest.
+    pub(super) others: Mat<f64>,
+}
+
+impl WithoutForce {
+    /// All of them, translations first.
+    pub(super) fn all(&self) -> Mat<f64> {
+        dense::side_by_side(self.translations.as_ref(), self.others.as_ref())
+    }
+}
+
+/// Combinations of some motions of a body that make no force; `frame` is that of the body, and the motions are these `directions` of its six.
 ///
 /// # Errors
 /// [`Error::NegativePreload`] where a motion of the body as a whole has negative energy.
-pub(super) fn without_force(partition: &Partition, motions: Mat<f64>, frame: &Frame) -> Result<Mat<f64>> {
+pub(super) fn without_force(
+    partition: &Partition,
+    motions: MatRef<'_, f64>,
+    directions: MatRef<'_, f64>,
+    frame: &Frame,
+) -> Result<WithoutForce> {
     if motions.ncols() == 0 {
-        return Ok(motions);
+        return Ok(WithoutForce { translations: motions.to_owned(), others: motions.to_owned() });
     }
-    let (forces, terms) = product_and_terms(&partition.stiffness, motions.as_ref());
-    refuse_negative(partition, motions.as_ref(), forces.as_ref(), terms.as_ref())?;
+    let (forces, terms) = product_and_terms(&partition.stiffness, motions);
+    refuse_negative(partition, motions, forces.as_ref(), terms.as_ref())?;
     let scale = Equilibrated::of(partition.pencil()).scale;
     let n_rows = motions.nrows().max(motions.ncols());
     let scaled =
@@ -38,13 +58,14 @@ pub(super) fn without_force(partition: &Partition, motions: Mat<f64>, frame: &Fr
     let rounding = partition.precision.stiffness.share + f64::EPSILON * far;
     let zero = NOISE_FACTOR * partition.cancellation * rounding * size;
     // Translations that are free by themselves stay as they are, to the bit.
-    let is_alone = |j: &usize| dense::norm(dense::column(forces.as_ref(), *j)) <= zero;
+    let is_translation = |j: usize| (3..6).all(|rotation| directions[(rotation, j)] == 0.0);
+    let is_alone = |j: &usize| is_translation(*j) && dense::norm(dense::column(forces.as_ref(), *j)) <= zero;
     let (alone, others): (Vec<usize>, Vec<usize>) = (0..motions.ncols()).partition(is_alone);
     let (singular, v) = dense::right_singular(dense::columns(forces.as_ref(), &others).as_ref())?;
     let free: Vec<usize> = (0..singular.len()).filter(|j| singular[*j] <= zero).collect();
     let combined =
-        dense::product(dense::columns(motions.as_ref(), &others).as_ref(), dense::columns(v.as_ref(), &free).as_ref());
-    Ok(dense::side_by_side(dense::columns(motions.as_ref(), &alone).as_ref(), combined.as_ref()))
+        dense::product(dense::columns(motions, &others).as_ref(), dense::columns(v.as_ref(), &free).as_ref());
+    Ok(WithoutForce { translations: dense::columns(motions, &alone), others: combined })
 }
 
 /// Refuses a body that turns with negative energy. Its free modes would be unstable and their counts those of another structure.

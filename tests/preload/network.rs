@@ -9,7 +9,7 @@
 use std::array::from_fn;
 
 use supel_models::model::cross;
-use supel_models::{Assembler, Model, SplitMix64};
+use supel_models::{Assembler, Inertia, Material, Model, Section, SplitMix64, frame};
 
 type Vector = [f64; 3];
 
@@ -87,6 +87,30 @@ pub(crate) fn strutted_tower(compression: f64) -> Network {
         |end| Spring { nodes: [end, 12], arms: [[0.0; 3]; 2], stiffness: STIFFNESS, tension: -compression * STIFFNESS };
     springs.extend([8, 11].map(strut));
     Network::of(at, Nodes::Points, springs)
+}
+
+/// Bars between nine nodes, and two ties under a tension of this times their stiffness; an arm and a bar are a thousand times as stiff along
+/// themselves as across.
+pub(crate) fn tied_frame(strain: f64) -> Network {
+    const NODES: [Vector; 9] = [
+        [0.0, 0.0, 0.0],
+        [0.5, 0.0, 0.05],
+        [1.0, 0.1, 0.0],
+        [1.5, 0.1, 0.2],
+        [0.5, 0.5, 0.0],
+        [1.0, 0.6, 0.1],
+        [1.5, 0.5, 0.0],
+        [2.0, 0.3, 0.1],
+        [1.0, 0.3, 0.6],
+    ];
+    const BARS: [[usize; 2]; 12] =
+        [[0, 1], [1, 2], [2, 3], [1, 4], [4, 5], [5, 6], [2, 5], [3, 7], [6, 7], [2, 8], [5, 8], [4, 0]];
+    let tie = |nodes| Spring { nodes, arms: [[0.0; 3]; 2], stiffness: STIFFNESS, tension: strain * STIFFNESS };
+    let ties = Network::of(NODES.to_vec(), Nodes::Bodies, [[3, 6], [4, 8]].map(tie).into());
+    let bars = frame(&NODES, &BARS, &Section::round(0.0125), &Material::STEEL_SI, Inertia::Consistent);
+    let mut stiffness = Assembler::default();
+    stiffness.extend(ties.model.stiffness.iter().chain(&bars.stiffness).copied());
+    Network { model: Model { stiffness: stiffness.finish(), ..bars }, ..ties }
 }
 
 fn tower_nodes() -> Vec<Vector> {
