@@ -129,7 +129,7 @@ fn is_exact(evidence: &Evidence<'_>, directions: &Directions, along: MatRef<'_, 
 /// The effective masses of the reduced model with its interface held, for a free component; none where the mass is that of free modes alone.
 ///
 /// Γ = M_II U_I + M_IB U_B is the inertia of a rigid-body acceleration on the interior; a mode φ carries (φᵀΨ_DᵀΓ)² of the
-/// total ΓᵀM_II⁻¹Γ.
+/// total ΓᵀM_II⁻¹Γ. No modes carry nothing, whatever the total is.
 pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<EffectiveMasses>> {
     // With the interface held a mass without that of the static answers has shares that add up to more than the whole.
     if evidence.reduction.modal_mass.is_some() || !evidence.is_held() {
@@ -138,6 +138,9 @@ pub(super) fn effective_masses(evidence: &Evidence<'_>) -> Result<Option<Effecti
     let partition = evidence.partition;
     let (n_i, n_b, n_eta) = (partition.n_internal, partition.n_interface(), evidence.basis.n_dynamic());
     let directions = Directions::free(evidence);
+    if n_eta == 0 {
+        return Ok(Some(EffectiveMasses { directions: directions.names, shares: Vec::new() }));
+    }
     let inertia = product(&partition.mass, directions.motions.as_ref());
     let gamma = inertia.as_ref().subrows(0, n_i);
     let start = directions.motions.as_ref().subrows(0, n_i);
