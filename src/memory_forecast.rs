@@ -29,8 +29,8 @@ pub(crate) const TOGETHER_UP_TO: usize = 50_000;
 /// Blocks of all columns of the space in which the frequency response is found, in halves: the columns, what K and M make of them, both once
 /// more in a decomposition, and a copy while a column is added. Of the columns
 /// that there are, 9 to 12 were measured with 3,000 to 30,000 dofs and 12 to 294 interface dofs; of the columns foreseen 7 to 9 between two
-/// rigid patches of parts with 10,000 to 123,000 dofs.
-const HALF_BLOCKS_OF_RESPONSE: u64 = 19;
+/// rigid patches of parts with 3,000 to 297,000 dofs.
+const HALF_BLOCKS_OF_RESPONSE: u64 = 17;
 /// Blocks of n_B columns that such a space takes on, where the interface has few dofs.
 pub(crate) const RESPONSE_BLOCKS: f64 = 6.0;
 /// Columns for each root of n_B that it takes on where there are some: unlike forces share their answers.

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """Makes the diagrams of errors, sizes and run times, as SVG and CSV, by one command.
 
-    benches/diagrams/run.py [A B C D E F G H S] [--family bulky] [--dofs 10000] [--threads 2]
+    benches/diagrams/run.py [A B C D E F G H M S] [--family bulky] [--dofs 10000] [--threads 2]
 
 A eigen stage against eigenvalue error; B error under foreign boundaries against size; C whole job against the delivered
 frequency response; D error over eps * kappa; E growth with n; F what scenes and a cache save; G accepted, promised and
-found errors; H couplings of a hole against the mesh; S a spinning beam.
+found errors; H couplings of a hole against the mesh; M memory that is foreseen against that of the run; S a spinning beam.
 
 Needs a release build of supel; parts are generated and kept in --work, Python packages come into an environment of its own
-(PEERS_VENV). --family, --dofs, --method and --repeats are of A, C, E and F: without options a short run on small parts; the
+(PEERS_VENV). --family, --dofs, --method and --repeats are of A, C, E, F and M: without options a short run on small parts; the
 documents' series is `--dofs 89000` for A and C, `F --family slender --dofs 297000`, `F --family onshape` with SUPEL_CORPUS, and
 `E --dofs 10000 --dofs 30000 --dofs 89000 --dofs 297000 --dofs 878000 --repeats 5`. B and G leave out what needs SUPEL_CORPUS
 where that is absent, H needs CalculiX.
@@ -25,12 +25,12 @@ from harness import environment, machine
 
 environment.enter()
 
-from diagrams import accepted, accuracy, delivered, eigen, foreign, hole, scaling, scenes, spin
+from diagrams import accepted, accuracy, delivered, eigen, foreign, foreseen, hole, scaling, scenes, spin
 
 FAMILIES = ("bulky", "slender", "lattice")
-# Parts of one size, of F alone.
+# Parts of one size, of F and M alone.
 OF_CORPUS = ("onshape",)
-LETTERS = ("A", "B", "C", "D", "E", "F", "G", "H", "S")
+LETTERS = ("A", "B", "C", "D", "E", "F", "G", "H", "M", "S")
 
 
 def main():
@@ -53,7 +53,8 @@ def main():
     letters, families = settings.letters or LETTERS, settings.family or FAMILIES
     for family in families:
         if family in OF_CORPUS:
-            scenes.draw(settings, family, None)
+            if "F" in letters:
+                scenes.draw(settings, family, None)
             continue
         for dofs in settings.dofs or [10000]:
             if "A" in letters:
@@ -64,6 +65,8 @@ def main():
                 scenes.draw(settings, family, dofs)
         if "E" in letters:
             scaling.draw(settings, family, settings.dofs or [2500, 5000, 10000])
+    if "M" in letters:
+        foreseen.draw(settings, families, settings.dofs or [3000, 10000])
     for letter, diagram in (("B", foreign), ("D", accuracy), ("G", accepted), ("H", hole), ("S", spin)):
         if letter in letters:
             diagram.draw(settings)
