@@ -62,8 +62,8 @@ pub(crate) fn noise(known: impl IntoIterator<Item = Known>, first: f64) -> f64 {
 }
 
 /// What rounding and the digits of the data make of an energy that should be zero, relative to the first elastic eigenvalue: by the bars
-/// of the modes known and by what few digits make of rigid-body motion itself, which the bars of modes with the interface held do not
-/// show. Without modes it comes from the moduli of its terms.
+/// of the modes known and by what rounding and few digits make of rigid-body motion itself, which the bars of modes with the interface held
+/// do not show: a stiff part far from it strains in none of them. Without modes it comes from the moduli of its terms.
 pub(crate) fn energy_noise(
     (partition, rigid): (&Partition, &RigidBodyModes),
     known: impl IntoIterator<Item = Known>,
@@ -72,7 +72,11 @@ pub(crate) fn energy_noise(
     let mut known = known.into_iter().peekable();
     match known.peek() {
         None => partition.cancellation * rigid.energy.noise / first,
-        Some(_) => noise(known, first).max(noise_of_digits(partition, rigid) / first),
+        Some(_) => {
+            let share_of_rounding = f64::EPSILON / (partition.precision.stiffness.share + f64::EPSILON);
+            let of_rigid = noise_of_digits(partition, rigid).max(share_of_rounding * rigid.energy.noise);
+            noise(known, first).max(of_rigid / first)
+        }
     }
 }
 
