@@ -13,7 +13,7 @@ use faer::Mat;
 
 use super::interface_node::NodeNames;
 use super::transformation::{DofOrigin, Transformation};
-use crate::dense::{self, NOISE_FACTOR};
+use crate::dense;
 use crate::dofs::Direction;
 use crate::model::{Finding, Site};
 use crate::sparse::SparseMatrix;
@@ -35,27 +35,15 @@ pub(super) fn far_masses(mass: &SparseMatrix, transformation: &Transformation, n
         let dofs: Vec<usize> = dofs.into_iter().collect::<Option<_>>()?;
         let block = Mat::from_fn(6, 6, |i, j| mass.get(dofs[i], dofs[j]).copied().unwrap_or(0.0));
         let (loss, offset) = (loss_of(&block).filter(|loss| *loss >= FAR)?, offset_of(&block));
-        let origin = transformation.dofs[dofs[0]].site?.position;
-        if !is_of_distance(&block, offset, loss) || is_rounding(&block, offset, origin) {
+        // Nodes on a line have next to no inertia about it, wherever they are described.
+        if loss_of(&about(&block, offset)).is_some_and(|left| left > SHARE_OF_LOSS * loss) {
             return None;
         }
+        let origin = transformation.dofs[dofs[0]].site?.position;
         let centre = [0, 1, 2].map(|axis| origin[axis] + offset[axis]);
         Some(Finding::MassFar { interface: names.of(node).to_owned(), centre, distance: dense::norm(&offset), loss })
     };
     of_nodes.into_iter().filter_map(of_node).collect()
-}
-
-/// Whether the loss is left behind where the node is the centre of the mass. Nodes on a line have next to no inertia about it, or none, wherever
-/// they are described.
-fn is_of_distance(block: &Mat<f64>, offset: [f64; 3], loss: f64) -> bool {
-    loss_of(&about(block, offset)).is_some_and(|left| left <= SHARE_OF_LOSS * loss)
-}
-
-/// Whether the way to the centre is rounding of the positions of the nodes.
-fn is_rounding(block: &Mat<f64>, offset: [f64; 3], origin: [f64; 3]) -> bool {
-    let inertia = (3..6).map(|i| block[(i, i)]).fold(0.0, f64::max);
-    let gyration = (inertia / block[(0, 0)]).sqrt();
-    dense::norm(&offset) <= NOISE_FACTOR * f64::EPSILON * (dense::norm(&origin) + gyration)
 }
 
 /// How many times larger the terms of the smallest inertia are than what is left of them; none where some direction has no mass.
@@ -114,25 +102,5 @@ mod tests {
         assert!(loss_of(&block(1e6, [0.0; 3])).expect("massive") < 2.0);
         assert!(loss_of(&about(&far, offset)).expect("massive") < 1e3);
         assert_eq!(loss_of(&Mat::zeros(6, 6)), None);
-        assert!(is_of_distance(&far, offset, loss));
-    }
-
-    /// Masses on a line that a rounding puts next to the node: about the line they have the inertia of a rounding, or none.
-    #[test]
-    fn masses_on_a_line_are_not_far() {
-        for about_the_line in [0.0, 1e-33] {
-            let at = |z: f64| {
-                let motion = motion_of_node([1e-16, 0.0, z]);
-                let turn = motion.subrows(0, 3);
-                dense::product(turn.transpose(), turn)
-            };
-            let mut line = &at(1.0) + &at(-1.0);
-            line[(5, 5)] += about_the_line;
-            let (loss, offset) = (loss_of(&line).expect("an inertia of rounding"), offset_of(&line));
-            assert!(loss >= FAR, "{loss:e}");
-            assert!(!is_of_distance(&line, offset, loss) || is_rounding(&line, offset, [0.0; 3]));
-        }
-        let far = block(1e6, [3.0, -2.0, 0.5]);
-        assert!(!is_rounding(&far, offset_of(&far), [0.0; 3]));
     }
 }
