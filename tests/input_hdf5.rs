@@ -317,6 +317,24 @@ fn damaged_values_are_refused_by_the_library() {
     assert!(matches!(error, Error::Hdf5Read { .. }), "{error}");
 }
 
+/// What a name leads to cannot be told where the header of the object is damaged: that is said, and not that the file has no mesh.
+#[test]
+fn a_damaged_member_is_not_absent() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("member.med");
+    // Headers of this version begin with a signature.
+    let file = File::with_options().with_fapl(|access| access.libver_latest()).create(&path).unwrap();
+    file.create_group("ENS_MAA").unwrap();
+    drop(file);
+    let mut bytes = fs::read(&path).unwrap();
+    let headers: Vec<usize> = (0..bytes.len() - 4).filter(|&i| bytes[i..].starts_with(b"OHDR")).collect();
+    let [_root, member] = headers[..] else { panic!("headers at {headers:?}") };
+    bytes[member] = 0;
+    fs::write(&path, bytes).unwrap();
+    let error = read_nodes(&path).unwrap_err();
+    assert!(matches!(&error, Error::Hdf5Read { object, .. } if object == "/ENS_MAA"), "{error}");
+}
+
 #[test]
 fn links_are_not_followed() {
     let (_folder, path) = file_with(|f| {

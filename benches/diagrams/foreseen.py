@@ -31,13 +31,12 @@ def row_of(settings, folder, family):
 def draw(settings, families, dofs):
     for family in families:
         rows = []
-        if family == "onshape":
-            of_corpus = scenes.of_corpus(settings.work / family)
-            folders = [] if of_corpus is None else [of_corpus]
-        else:
-            folders = [part.make(family, n, settings.work / f"{family}-{n}") for n in dofs]
-        for folder in folders:
-            rows.append(row_of(settings, folder.resolve(), family))
+        # The part of the corpus has one size.
+        for n in dofs[:1] if family == "onshape" else dofs:
+            folder = scenes.folder_of(settings, family, n)
+            if folder is None:
+                continue
+            rows.append(row_of(settings, folder, family))
             print(*rows[-1].values(), flush=True)
         if rows:
             figure.write_rows(settings.out / f"M-{family}.csv", rows, settings.origin)

@@ -116,14 +116,19 @@ def of_corpus(folder):
     return folder
 
 
-def draw(settings, family, dofs):
+def folder_of(settings, family, dofs):
+    """The folder of a part, made where it is not there; None where the corpus is absent."""
     if family == "onshape":
         folder = of_corpus(settings.work / family)
-        if folder is None:
-            return
-        folder = folder.resolve()
     else:
-        folder = part.make(family, dofs, settings.work / f"{family}-{dofs}").resolve()
+        folder = part.make(family, dofs, settings.work / f"{family}-{dofs}")
+    return folder and folder.resolve()
+
+
+def draw(settings, family, dofs):
+    folder = folder_of(settings, family, dofs)
+    if folder is None:
+        return
     facts = part.facts(folder)
     labels = np.loadtxt(folder / "nodes.csv", delimiter=",", skiprows=1)[:, 0].astype(int)
     outputs = labels[np.linspace(0, len(labels) - 1, N_OUTPUTS).astype(int)].tolist()

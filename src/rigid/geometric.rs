@@ -203,11 +203,10 @@ fn free_of_preloaded(partition: &Partition, motions: &WithoutForce) -> Result<(M
         return Ok(combined);
     }
     let (massive, massless) = mass_orthonormal(&partition.mass, motions.others.as_ref(), 0.0)?;
-    let others = [massive, massless].map(|motions| Energies::of(partition, motions.as_ref()).map(|e| e.free()));
-    let [massive, massless] = others;
-    let (massive, massless) = (massive?, massless?);
-    let n = all.nrows();
-    let apart = dense::concatenated(n, [&motions.translations, &massive, &massless].map(|motions| motions.as_ref()));
+    let free = |motions: &Mat<f64>| Energies::of(partition, motions.as_ref()).map(|energies| energies.free());
+    let (massive, massless) = (free(&massive)?, free(&massless)?);
+    let apart = [&motions.translations, &massive, &massless].map(|motions| motions.as_ref());
+    let apart = dense::concatenated(all.nrows(), apart);
     if apart.ncols() == n_free { free_motions(partition, apart.as_ref()) } else { Ok(combined) }
 }
 

@@ -89,8 +89,7 @@ pub(crate) fn strutted_tower(compression: f64) -> Network {
     Network::of(at, Nodes::Points, springs)
 }
 
-/// Bars between nine nodes, and two ties under a tension of this times their stiffness; an arm and a bar are a thousand times as stiff along
-/// themselves as across.
+/// Bars between nine nodes, a thousand times as stiff along themselves as across, and two ties under a tension of this times their stiffness.
 pub(crate) fn tied_frame(strain: f64) -> Network {
     const NODES: [Vector; 9] = [
         [0.0, 0.0, 0.0],
