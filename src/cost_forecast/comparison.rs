@@ -114,10 +114,11 @@ fn n_supports(job: &Job, sizes: &Sizes) -> f64 {
     stated.map_or((2.0 * sizes.n_interfaces).max(1.0), |stated| stated.len() as f64)
 }
 
-/// Frequencies under so many boundaries: an eigensolution each with the factor that is there, and one count for all.
+/// Frequencies under so many boundaries: the rows that each leaves of K and M, an eigensolution with the factor that is there, and one count
+/// for all.
 fn others(sizes: &Sizes, n_supports: f64) -> Work {
     let counted = if sizes.proofs == Proofs::None { Work::default() } else { sizes.count() };
-    sizes.eigensolution(sizes.n_modes) * n_supports + counted
+    (sizes.passes(2.0) + sizes.eigensolution(sizes.n_modes)) * n_supports + counted
 }
 
 /// Columns of the space in which the response converges.
