@@ -22,6 +22,8 @@ use crate::sparse::SparseMatrix;
 const FAR: f64 = 1e6;
 /// Share of the loss that is left about the centre of the mass where the distance is what made it: a digit less.
 const SHARE_OF_LOSS: f64 = 0.1;
+/// Units of rounding that sums over a patch leave of a centre of mass, relative to how far its nodes are.
+const ROUNDED: f64 = 64.0;
 
 /// One finding for each patch whose mass is far from its node.
 pub(super) fn far_masses(mass: &SparseMatrix, transformation: &Transformation, names: NodeNames<'_>) -> Vec<Finding> {
@@ -35,11 +37,14 @@ pub(super) fn far_masses(mass: &SparseMatrix, transformation: &Transformation, n
         let dofs: Vec<usize> = dofs.into_iter().collect::<Option<_>>()?;
         let block = Mat::from_fn(6, 6, |i, j| mass.get(dofs[i], dofs[j]).copied().unwrap_or(0.0));
         let (loss, offset) = (loss_of(&block).filter(|loss| *loss >= FAR)?, offset_of(&block));
+        let origin = transformation.dofs[dofs[0]].site?.position;
+        if is_rounding(&block, offset, origin) {
+            return None;
+        }
         // Nodes on a line have next to no inertia about it, wherever they are described.
         if loss_of(&about(&block, offset)).is_some_and(|left| left > SHARE_OF_LOSS * loss) {
             return None;
         }
-        let origin = transformation.dofs[dofs[0]].site?.position;
         let centre = [0, 1, 2].map(|axis| origin[axis] + offset[axis]);
         Some(Finding::MassFar { interface: names.of(node).to_owned(), centre, distance: dense::norm(&offset), loss })
     };
@@ -63,6 +68,14 @@ fn offset_of(block: &Mat<f64>) -> [f64; 3] {
     let mass = (block[(0, 0)] + block[(1, 1)] + block[(2, 2)]) / 3.0;
     let skew = |i: usize, j: usize| 0.5 * (block[(i, 3 + j)] - block[(j, 3 + i)]) / mass;
     [skew(1, 2), skew(2, 0), skew(0, 1)]
+}
+
+/// Whether the centre of the mass is at the node, but for the rounding of coordinates and of their mean: nodes on a line whose node is
+/// in their middle have no inertia about it but that of rounding.
+fn is_rounding(block: &Mat<f64>, offset: [f64; 3], origin: [f64; 3]) -> bool {
+    let trace = |from: usize| (from..from + 3).map(|i| block[(i, i)]).sum::<f64>();
+    let gyration = (trace(3) / trace(0)).max(0.0).sqrt();
+    dense::norm(&offset) <= ROUNDED * f64::EPSILON * (dense::norm(&origin) + gyration)
 }
 
 /// M_p of a node at a place r from the one it is given for, whose dofs are at −r from that one.
@@ -102,5 +115,22 @@ mod tests {
         assert!(loss_of(&block(1e6, [0.0; 3])).expect("massive") < 2.0);
         assert!(loss_of(&about(&far, offset)).expect("massive") < 1e3);
         assert_eq!(loss_of(&Mat::zeros(6, 6)), None);
+        assert!(!is_rounding(&far, offset, [0.0; 3]));
+    }
+
+    /// Six nodes of unit mass on a line that is along no axis, described by their mean.
+    #[test]
+    fn the_mean_of_a_line_is_not_far() {
+        let places: Vec<[f64; 3]> = (0..6).map(|k| [0.6, 0.8, 0.1].map(|x| 0.3 + x * 0.1 * f64::from(k))).collect();
+        let origin: [f64; 3] = std::array::from_fn(|axis| places.iter().map(|place| place[axis]).sum::<f64>() / 6.0);
+        let mut line = Mat::zeros(6, 6);
+        for place in &places {
+            let motion = motion_of_node(std::array::from_fn(|axis| place[axis] - origin[axis]));
+            let turn = motion.subrows(0, 3);
+            line += dense::product(turn.transpose(), turn);
+        }
+        assert!(is_rounding(&line, offset_of(&line), origin));
+        let elsewhere = about(&line, [1e-6, 0.0, 0.0]);
+        assert!(!is_rounding(&elsewhere, offset_of(&elsewhere), origin));
     }
 }
