@@ -177,9 +177,13 @@ fn warnings_fail_only_where_asked() {
 #[test]
 fn left_over_parts_are_reported() {
     let place = Workplace::new();
-    std::fs::write(place.path(".bracket.supel.1-0.part"), "").expect("written");
+    // No process has a number beyond 2²².
+    std::fs::write(place.path(".bracket.supel.99999999-0.part"), "").expect("written");
+    let running = format!(".bracket.supel.{}-7.part", std::process::id());
+    std::fs::write(place.path(&running), "").expect("written");
     let ended = supel(&["reduce", &place.job()]);
-    assert!(ended.err.contains(".part: left by an interrupted run"), "{}", ended.err);
+    assert!(ended.err.contains("99999999-0.part: left by an interrupted run – it can be removed"), "{}", ended.err);
+    assert!(ended.err.contains("-7.part: another run may be writing it"), "{}", ended.err);
 }
 
 #[test]

@@ -76,5 +76,15 @@ pub(super) fn refuse_unwritable(own: &OwnFiles) -> Result<()> {
 /// What is to be said of temporary files in the folders of the outputs, which other runs left or are writing.
 pub(super) fn abandoned(own: &OwnFiles) -> Vec<String> {
     let parts = own.paths().iter().flat_map(|path| abandoned_parts(path));
-    parts.map(|part| format!("supel: {}: left by an interrupted run – it can be removed", part.display())).collect()
+    let said = |part: &Path| match is_of_running(part) {
+        true => "another run may be writing it – remove it if none is",
+        false => "left by an interrupted run – it can be removed",
+    };
+    parts.map(|part| format!("supel: {}: {}", part.display(), said(&part))).collect()
+}
+
+/// Whether the process whose number is in the name of a temporary file runs, where the system tells.
+fn is_of_running(part: &Path) -> bool {
+    let number = part.file_stem().and_then(|stem| Path::new(stem).extension()?.to_str()?.split('-').next());
+    number.is_some_and(|number| !number.is_empty() && Path::new("/proc").join(number).join("stat").exists())
 }
