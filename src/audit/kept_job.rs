@@ -72,6 +72,7 @@ fn by_job(content: &Content<'_>, job: &Job) -> Vec<&'static str> {
     expect(metadata.units == job.model.units, "other units");
     let found: BTreeSet<&str> = metadata.interface_nodes.iter().map(|node| node.name.as_str()).collect();
     expect(found.is_empty() || content.plan.as_ref().is_some_and(|plan| are_asked(plan, &found)), "other interfaces");
+    expect(are_in_order(content, job), "interfaces in another order");
     expect(found.is_empty() || labels(content) == labels_asked(job, &found), "other interface nodes");
     let is_by_rows = job.interfaces.iter().all(|interface| matches!(interface.nodes, NodeSelection::Rows { .. }));
     expect(
@@ -152,6 +153,14 @@ fn are_asked(plan: &Plan, found: &BTreeSet<&str>) -> bool {
     let needed: BTreeSet<&str> = whole.chain(carriers.iter().map(|carrier| carrier.name.as_str())).collect();
     let allowed: BTreeSet<&str> = needed.iter().copied().chain(names).collect();
     needed.is_subset(found) && found.is_subset(&allowed)
+}
+
+/// Whether the interfaces of a file stand in the order of the job. Carriers of the scene may stand anywhere.
+fn are_in_order(content: &Content<'_>, job: &Job) -> bool {
+    let asked: Vec<&str> = job.interfaces.iter().map(|interface| interface.name.as_str()).collect();
+    let nodes = content.superelement.metadata().interface_nodes.iter();
+    let places = nodes.filter_map(|node| asked.iter().position(|name| *name == node.name));
+    places.is_sorted()
 }
 
 /// Labels that the interfaces of the file list by the job, those of patches left out: a patch is one node without a label.

@@ -182,6 +182,16 @@ fn positions() {
 }
 
 #[test]
+fn names_exchanged_between_interfaces() {
+    let place = reduced("herting");
+    fails(&place, "M-26 file is what its job asks for", &|_, metadata| {
+        let [a, b] = [0, 1].map(|at| metadata.interface_nodes[at].name.clone());
+        assert_ne!(a, b);
+        (metadata.interface_nodes[0].name, metadata.interface_nodes[1].name) = (b, a);
+    });
+}
+
+#[test]
 fn frames() {
     let place = reduced("herting");
     fails(&place, "M-26 file is what its job asks for", &|tensors, _| {
