@@ -18,6 +18,7 @@ mod bilinear;
 mod columns;
 mod combined;
 mod comparison;
+mod coordinates;
 mod dependence;
 mod entries;
 mod full;
@@ -230,13 +231,15 @@ impl<'a> Reference<'a> {
         Ok(audit)
     }
 
-    /// What the mass before supports says of a component whose file has no mass properties: that it is a body's, and what the job expects.
+    /// What the mass before supports says of a component whose file has no mass properties: that it is a body's, and what the job expects;
+    /// and what the stiffness does not say of its coordinates.
     fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
         let is_weighed = !self.motions.is_classical() || self.partition.held.count() > 0;
         let weighed = is_weighed.then(|| verification::of_weighed_body(self.partition)).flatten();
         let mut checks: Vec<Check> = weighed.into_iter().chain(verification::of_parts(self.partition)).collect();
         let has_properties = superelement.metadata().model.mass_properties.is_some();
         checks.extend(mass::stated_of_model(superelement, self.partition));
+        checks.extend(coordinates::untested(self.partition));
         let is_expected_here = !has_properties || self.partition.fit.is_preloaded();
         if let Some(expect) = self.plan.job().model.expect.as_ref().filter(|_| is_expected_here) {
             let lacks = verification::not_comparable(expect, self.partition);

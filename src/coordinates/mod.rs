@@ -26,7 +26,7 @@
 //! them.
 //!
 //! Local frames at a few nodes look like supports to K, and `local_frames` tells them apart where no support is near. Next to one a mass
-//! that couples nodes shows them.
+//! that couples nodes shows them, and `patch_nodes` says which nodes of patches nothing confirms there.
 
 mod axis_digits;
 mod doubt;
@@ -37,6 +37,7 @@ mod mass;
 mod mended;
 mod motions;
 mod nodes;
+mod patch_nodes;
 mod preload;
 mod rounded_axes;
 mod zeros;
@@ -95,7 +96,8 @@ pub fn compared(model: Model, (held, mechanisms): (&[Direction], Mechanisms), ti
     let is_free = doubts.is_empty() || fit.rounded().is_some() && doubts.iter().all(|doubt| doubt.n_touched == 0);
     let supports = if is_free { Supports::None } else { Supports::Perhaps };
     let mut findings = model.findings.clone();
-    findings.extend(doubt::untested(&motions, &doubts));
+    let of_patches = || patch_nodes::unconfirmed(&motions, &nodes, tied);
+    findings.extend(doubt::untested(&motions, &doubts).or_else(of_patches));
     findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));
     findings.extend(doubt::not_held(&motions, held));
     findings.extend(mass::by_direction(&motions, &nodes));

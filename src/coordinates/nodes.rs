@@ -77,10 +77,19 @@ impl Nodes {
         self.lacks[self.of(row)] & DISPLACEMENT << axis != 0
     }
 
+    /// Whether all of a rotation about an axis is there around a row.
+    pub(super) fn is_whole(&self, row: usize, axis: usize) -> bool {
+        self.near[self.of(row)] & (DISPLACEMENT | ROTATION) << axis == 0
+    }
+
     /// Whether all of a rotation about an axis is there around a row, and no support touches it.
     pub(super) fn is_witness(&self, row: usize, axis: usize) -> bool {
-        let is_whole = self.near[self.of(row)] & (DISPLACEMENT | ROTATION) << axis == 0;
-        self.is_placed[row] && !self.is_touched[self.of(row)] && is_whole
+        self.is_placed[row] && !self.is_touched[self.of(row)] && self.is_whole(row, axis)
+    }
+
+    /// Whether no support touches any node, and none lacks a direction.
+    pub(super) fn are_all_whole(&self) -> bool {
+        !self.is_touched.contains(&true) && self.lacks.iter().all(|lacks| *lacks == 0)
     }
 
     /// Whether no support touches a row or may hold what is coupled to it.

@@ -94,6 +94,15 @@ pub enum Finding {
         /// The largest of these forces, relative to the terms that it is the sum of.
         largest: f64,
     },
+    /// Nodes of patches around which supports, or axes that nobody declared, leave nothing that confirms where they are.
+    PatchNodesUntested {
+        /// How many.
+        n_nodes: usize,
+        /// Nodes of patches altogether.
+        n_tied: usize,
+        /// Some of them.
+        at: String,
+    },
     /// The motions without energy of a held model cannot be counted, so that nothing confirms the coordinates at its supports.
     MotionsUncounted,
     /// Nodes of a held body that have another mass in one direction than in another.
@@ -224,6 +233,16 @@ impl Finding {
         }
     }
 
+    /// At how many nodes of patches, or rows, coordinates are not confirmed; one where that is said of the model as a whole.
+    pub fn n_untested(&self) -> usize {
+        match self {
+            Self::CoordinatesUntested { n_touched, .. } => *n_touched,
+            Self::PatchNodesUntested { n_nodes, .. } => *n_nodes,
+            Self::MotionsUncounted => 1,
+            _ => 0,
+        }
+    }
+
     /// The code of the warning that a finding is, or nothing where it is a remark.
     pub fn warning(&self) -> Option<&'static str> {
         match self {
@@ -236,7 +255,9 @@ impl Finding {
             Self::Penalties { .. } => Some("W-PENALTY"),
             Self::NegativeMassByRounding { .. } => Some("W-NEGATIVE-MASS"),
             Self::ConstrainedInterface { .. } => Some("W-CONSTRAINED-INTERFACE"),
-            Self::CoordinatesUntested { .. } | Self::MotionsUncounted => Some("W-COORD-UNTESTED"),
+            Self::CoordinatesUntested { .. } | Self::PatchNodesUntested { .. } | Self::MotionsUncounted => {
+                Some("W-COORD-UNTESTED")
+            }
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
             Self::FrameDigits { .. } => Some("W-FRAME-DIGITS"),
@@ -276,6 +297,7 @@ impl std::fmt::Display for Finding {
             Self::CoordinatesUntested { n_touched, n_rows, largest } => {
                 f.write_str(&words::coordinates_untested(*n_touched, *n_rows, *largest))
             }
+            Self::PatchNodesUntested { n_nodes, n_tied, at } => f.write_str(&words::patch_nodes_untested([*n_nodes, *n_tied], at)),
             Self::FrameDigits { file, node, line, decimals } => f.write_str(&words::frame_digits(file, [*node, *line as i64], *decimals)),
             Self::MotionsUncounted => f.write_str(
                 "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \

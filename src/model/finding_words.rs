@@ -57,6 +57,14 @@ pub(super) fn frame_digits(file: &str, [node, line]: [i64; 2], decimals: i32) ->
     )
 }
 
+pub(super) fn patch_nodes_untested([n_nodes, n_tied]: [usize; 2], at: &str) -> String {
+    format!(
+        "supports, or axes that no frame declares, make forces around {n_nodes} of {} that patches tie, so that the stiffness does not confirm their \
+         coordinates and axes: node {at}; check that rows, map and coordinates are in one order there, and the axes",
+        counted(n_tied, "node", "nodes")
+    )
+}
+
 pub(super) fn coordinates_untested(n_touched: usize, n_rows: usize, largest: f64) -> String {
     let rounding = if largest <= LIKE_ROUNDING {
         format!(

@@ -25,7 +25,7 @@ pub(crate) fn axes_turned_by(angle: f64) -> [[f64; 3]; 3] {
     })
 }
 
-fn lumped(model: &Model) -> Model {
+pub(crate) fn lumped(model: &Model) -> Model {
     let mut lumped = model.clone();
     lumped.mass.retain(|(row, col, _)| row == col);
     lumped

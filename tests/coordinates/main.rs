@@ -7,6 +7,7 @@ mod displaced;
 mod faults;
 mod frames;
 mod mass;
+mod patches;
 mod soft;
 mod sound;
 mod table;

@@ -98,7 +98,7 @@ fn wrong_maps_and_coordinates_of_a_clamped_component() {
 }
 
 /// Frames at a few nodes of a clamped component look like one more support to K. The mass tells, unless it is lumped: the same
-/// in every frame. A map that mixes directions makes forces at so many rows that no witness is left.
+/// in every frame; then only a patch that ties such a node is told that nothing confirms it. A map that mixes directions makes forces at so many rows that no witness is left.
 #[test]
 fn directions_of_a_clamped_component() {
     for Outcome { fault, coupling, method, said } in outcomes(&clamped(), FAULTS_OF_DIRECTIONS) {
@@ -111,7 +111,10 @@ fn directions_of_a_clamped_component() {
     lumped.mass.retain(|(row, col, _)| row == col);
     let at_one_node = &FAULTS_OF_DIRECTIONS[3..];
     assert_eq!(at_one_node[0].0, "a local frame at one node");
-    assert_all(outcomes(&lumped, at_one_node), |said| said == "verified");
+    for Outcome { coupling, method, said, .. } in outcomes(&lumped, at_one_node) {
+        let expected = if coupling == "direct" { "verified" } else { "W-COORD-UNTESTED" };
+        assert_eq!(said, expected, "{coupling}, {method}");
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::place::{Ended, Place, supel};
 const FOOT: &str = "nodes = [1, 7, 22, 28]";
 
 /// Reduces a model by a job whose model has one more line.
-fn by_job(model: &Model, line: &str, interface: &str) -> (Place, Ended) {
+pub(crate) fn by_job(model: &Model, line: &str, interface: &str) -> (Place, Ended) {
     let place = Place::with(model);
     let job = format!(
         "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n{line}\n\
@@ -23,7 +23,7 @@ fn by_job(model: &Model, line: &str, interface: &str) -> (Place, Ended) {
 }
 
 /// Codes of the warnings.
-fn warnings(place: &Place) -> Vec<String> {
+pub(crate) fn warnings(place: &Place) -> Vec<String> {
     let report = place.report("x.report.json");
     let warnings = report["body"]["warnings"].as_array().expect("warnings").clone();
     warnings.iter().map(|warning| warning["code"].as_str().expect("a code").to_owned()).collect()
