@@ -356,6 +356,7 @@ fn inspect_shows_what_is_in_the_file() {
     assert_eq!(ended.code, ExitCode::Done);
     insta::assert_snapshot!("inspect_text", ended.out);
     let json: serde_json::Value = serde_json::from_str(&supel(&["inspect", &file, "--json"]).out).expect("json");
+    supel_testing::schema::assert_follows(&supel_testing::schema::validator("inspection"), &json);
     assert_eq!(json["sizes"]["n_reduced"], 2);
     assert_eq!(json["frequencies_hz"][0], 0.5);
     assert_eq!(json["metadata"]["interface_nodes"][1]["name"], "foot");

@@ -173,6 +173,7 @@ fn files_that_the_readme_names_exist() {
         "schemas/job.schema.json",
         "schemas/report.schema.json",
         "schemas/superelement.schema.json",
+        "schemas/inspection.schema.json",
         "docs/what-the-report-proves.md",
         "docs/images/report.png",
         "docs/export.md",
