@@ -37,6 +37,7 @@ mod mass;
 mod mended;
 mod motions;
 mod nodes;
+mod passing;
 mod patch_nodes;
 mod preload;
 mod rounded_axes;
@@ -96,8 +97,11 @@ pub fn compared(model: Model, (held, mechanisms): (&[Direction], Mechanisms), ti
     let is_free = doubts.is_empty() || fit.rounded().is_some() && doubts.iter().all(|doubt| doubt.n_touched == 0);
     let supports = if is_free { Supports::None } else { Supports::Perhaps };
     let mut findings = model.findings.clone();
-    let of_patches = || patch_nodes::unconfirmed(&motions, &nodes, tied);
-    findings.extend(doubt::untested(&motions, &doubts).or_else(of_patches));
+    let untested = match doubt::untested(&motions, &doubts) {
+        None => patch_nodes::unconfirmed(&motions, &nodes, tied)?,
+        all => all,
+    };
+    findings.extend(untested);
     findings.extend(matches!(fit, CoordinateFit::Unknown).then_some(Finding::MotionsUncounted));
     findings.extend(doubt::not_held(&motions, held));
     findings.extend(mass::by_direction(&motions, &nodes));

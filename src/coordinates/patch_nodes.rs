@@ -3,13 +3,15 @@
 //! A patch ties its nodes by their coordinates: u_a = ω_b x_c of the three axes a, b and c. Where K answers a turn about b with no force
 //! at a row that it couples with u_a, the coordinate c is confirmed, and where it answers translations with none there, so are the axes of
 //! the node. What supports and springs make forces at, or axes that nobody declared, bears no witness; and a chain of such nodes may reach a
-//! patch that no support is near.
+//! patch that no support is near. A motion that supports let pass makes no force anywhere, and is witness for all that it moves: `passing`.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::motions::{FIVE_DIGITS, Motions};
 use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes, noticeable_force};
+use super::passing::Passing;
 use crate::dofs::Direction;
+use crate::error::Result;
 use crate::model::Finding;
 use crate::partition::TiedNodes;
 
@@ -28,31 +30,37 @@ struct Witnesses<'a> {
     body_of: Vec<Option<usize>>,
     /// How far from the plane across each axis the nodes of a body lie that have no displacement along it.
     spread: Vec<[f64; 3]>,
+    /// The motions of each body that supports let pass.
+    passing: Vec<Passing>,
 }
 
 /// Says which nodes of patches nothing confirms, where there are any.
-pub(super) fn unconfirmed(motions: &Motions<'_>, nodes: &Nodes, tied: &TiedNodes) -> Option<Finding> {
-    let dofs = motions.model.dofs.as_ref()?;
-    if nodes.are_all_whole() {
-        return None;
-    }
+///
+/// # Errors
+/// A dense eigenproblem of order three that does not converge.
+pub(super) fn unconfirmed(motions: &Motions<'_>, nodes: &Nodes, tied: &TiedNodes) -> Result<Option<Finding>> {
+    let Some(dofs) = motions.model.dofs.as_ref().filter(|_| !nodes.are_all_whole()) else { return Ok(None) };
     let mut labels: BTreeMap<usize, i64> = BTreeMap::new();
     let dofs = dofs.iter().enumerate().filter_map(|(row, dof)| dof.map(|dof| (row, dof.node)));
     dofs.filter(|(_, node)| tied.contains(*node)).for_each(|(row, node)| {
         labels.insert(nodes.of(row), node);
     });
-    let witnesses = Witnesses::of(motions, nodes);
+    let witnesses = Witnesses::of(motions, nodes)?;
     let unconfirmed: Vec<i64> =
         labels.iter().filter(|(node, _)| !witnesses.confirm(**node)).map(|(_, label)| *label).collect();
-    (!unconfirmed.is_empty()).then(|| Finding::PatchNodesUntested {
+    let n_more = unconfirmed.len().saturating_sub(SHOWN_NODES);
+    let more = if n_more > 0 { format!(" and {n_more} more") } else { String::new() };
+    let shown: Vec<String> = unconfirmed.iter().take(SHOWN_NODES).map(i64::to_string).collect();
+    let finding = || Finding::PatchNodesUntested {
         n_nodes: unconfirmed.len(),
         n_tied: labels.len(),
-        at: unconfirmed.iter().take(SHOWN_NODES).map(i64::to_string).collect::<Vec<_>>().join(", "),
-    })
+        at: format!("{}{more}", shown.join(", ")),
+    };
+    Ok((!unconfirmed.is_empty()).then(finding))
 }
 
 impl<'a> Witnesses<'a> {
-    fn of(motions: &'a Motions<'a>, nodes: &'a Nodes) -> Self {
+    fn of(motions: &'a Motions<'a>, nodes: &'a Nodes) -> Result<Self> {
         let (mut rows_of, mut body_of) = (vec![Vec::new(); nodes.count()], vec![None; nodes.count()]);
         for (number, body) in motions.bodies.iter().enumerate() {
             for row in body.rows.iter().copied().filter(|row| nodes.is_placed(*row)) {
@@ -60,9 +68,11 @@ impl<'a> Witnesses<'a> {
                 body_of[nodes.of(row)] = Some(number);
             }
         }
-        let mut witnesses = Self { motions, nodes, rows_of, body_of, spread: vec![[0.0; 3]; motions.bodies.len()] };
+        let passing = motions.bodies.iter().map(|body| Passing::of(motions, nodes, body)).collect::<Result<_>>()?;
+        let spread = vec![[0.0; 3]; motions.bodies.len()];
+        let mut witnesses = Self { motions, nodes, rows_of, body_of, spread, passing };
         witnesses.spread = witnesses.spreads();
-        witnesses
+        Ok(witnesses)
     }
 
     fn spreads(&self) -> Vec<[f64; 3]> {
@@ -82,7 +92,8 @@ impl<'a> Witnesses<'a> {
     fn confirm(&self, node: usize) -> bool {
         let around: BTreeSet<usize> = self.rows_of[node].iter().flat_map(|row| self.coupled(*row)).collect();
         let has_axes = around.is_empty() || around.iter().any(|other| self.n_translations_felt(*other) <= 1);
-        has_axes && (0..3).all(|axis| self.confirms_coordinate(node, axis) || self.is_in_plane(node, axis))
+        (has_axes || self.passes_along_axes(node))
+            && (0..3).all(|axis| self.confirms_coordinate(node, axis) || self.is_in_plane(node, axis))
     }
 
     /// The nodes that feel the displacement of a row, its own with them.
@@ -100,8 +111,19 @@ impl<'a> Witnesses<'a> {
             let coupled = self.row_of(node, along).map_or_else(Vec::new, |row| self.coupled(row));
             (coupled, about)
         });
-        moved.iter().all(|(coupled, _)| coupled.is_empty())
-            || moved.iter().any(|(coupled, about)| coupled.iter().any(|other| self.is_witness(*other, *about)))
+        let passes = |about: usize| self.body_of[node].is_some_and(|body| self.passing[body].turns[about]);
+        let confirms = |(coupled, about): &(Vec<usize>, usize)| {
+            !coupled.is_empty() && passes(*about) || coupled.iter().any(|other| self.is_witness(*other, *about))
+        };
+        moved.iter().all(|(coupled, _)| coupled.is_empty()) || moved.iter().any(confirms)
+    }
+
+    /// Whether motions that pass move two displacements of a node, or all that it has: in other axes they would make forces.
+    fn passes_along_axes(&self, node: usize) -> bool {
+        let rows: Vec<usize> = (0..3).filter_map(|axis| self.row_of(node, axis)).collect();
+        let Some(body) = self.body_of[node] else { return false };
+        let n_moved = rows.iter().filter(|row| self.passing[body].moves(self.motions, **row)).count();
+        n_moved >= rows.len().min(2)
     }
 
     /// The row of a displacement of a node.

@@ -300,7 +300,8 @@ impl std::fmt::Display for Finding {
             Self::PatchNodesUntested { n_nodes, n_tied, at } => f.write_str(&words::patch_nodes_untested([*n_nodes, *n_tied], at)),
             Self::FrameDigits { file, node, line, decimals } => f.write_str(&words::frame_digits(file, [*node, *line as i64], *decimals)),
             Self::MotionsUncounted => f.write_str(
-                "K is too badly conditioned to count its motions without energy: nothing confirms the coordinates where supports are; \
+                "the motions without energy of K cannot be counted, for it is badly conditioned or has mechanisms of its own: nothing \
+                 confirms the coordinates where supports are; \
                  check that rows and map are in one order",
             ),
             Self::MassByDirection { n_nodes, at } => f.write_str(&words::mass_by_direction(*n_nodes, at)),

@@ -60,7 +60,7 @@ pub(super) fn frame_digits(file: &str, [node, line]: [i64; 2], decimals: i32) ->
 pub(super) fn patch_nodes_untested([n_nodes, n_tied]: [usize; 2], at: &str) -> String {
     format!(
         "supports, or axes that no frame declares, make forces around {n_nodes} of {} that patches tie, so that the stiffness does not confirm their \
-         coordinates and axes: node {at}; check that rows, map and coordinates are in one order there, and the axes",
+         coordinates and axes: nodes {at}; check that rows, map and coordinates are in one order there, and the axes",
         counted(n_tied, "node", "nodes")
     )
 }
@@ -75,7 +75,7 @@ pub(super) fn coordinates_untested(n_touched: usize, n_rows: usize, largest: f64
         String::new()
     };
     format!(
-        "translations make forces at {n_touched} of {}: supports that touch so many rows leave too few to compare the \
+        "translations make forces at the nodes of {n_touched} of {}: supports that touch so many leave too few to compare the \
          coordinates and the dof map with; check that rows and map are in one order{rounding}",
         counted(n_rows, "row", "rows")
     )
