@@ -267,6 +267,13 @@ pub fn abandoned_parts(target: &Path) -> Vec<PathBuf> {
     parts
 }
 
+/// The number of the process that wrote a temporary file or is writing it, which its name tells.
+pub fn writer_of_part(part: &Path) -> Option<u32> {
+    let name = part.file_name()?.to_str()?.strip_suffix(PART)?;
+    let (number, _attempt) = name.rsplit_once('.')?.1.split_once('-')?;
+    number.parse().ok()
+}
+
 const PART: &str = ".part";
 
 fn part_prefix(name: &std::ffi::OsStr) -> OsString {

@@ -156,7 +156,7 @@ mod tensors;
 mod validation;
 
 #[cfg(feature = "std")]
-pub use atomic_file::{StagedFile, StagedWriter, abandoned_parts};
+pub use atomic_file::{StagedFile, StagedWriter, abandoned_parts, writer_of_part};
 pub use container::begins_as_superelement;
 pub use coordinate::Coordinate;
 pub use direction::Direction;

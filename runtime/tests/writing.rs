@@ -5,7 +5,7 @@ use supel_models::superelements::particle as sample;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use supel_runtime::{FileError, Method, StagedFile, Superelement, abandoned_parts};
+use supel_runtime::{FileError, Method, StagedFile, Superelement, abandoned_parts, writer_of_part};
 
 fn names_in(folder: &Path) -> Vec<String> {
     let mut names = fs::read_dir(folder)
@@ -253,6 +253,8 @@ fn killed_while_writing() {
     let parts = abandoned_parts(&path);
     assert_eq!(parts.len(), 1, "{:?}", names_in(folder.path()));
     assert!(parts[0].to_string_lossy().ends_with(".part"));
+    assert!(writer_of_part(&parts[0]).is_some_and(|writer| writer != std::process::id()), "{parts:?}");
+    assert_eq!(writer_of_part(&path), None);
     sample::complete().write(&path).unwrap();
     assert_eq!(Superelement::open(&path).unwrap(), sample::complete(), "what was left does not hinder the next writer");
 }

@@ -30,13 +30,13 @@ mod projection;
 mod scaled;
 mod solve_errors;
 mod unseen;
+mod weighed;
 
 use faer::Mat;
 use supel_runtime::Superelement;
 
 use super::Audit;
 use super::content::{ModelNoise, mass_rank};
-use super::mass;
 use super::spectrum::condition_of;
 use crate::dense;
 use crate::eigen::Factored;
@@ -50,9 +50,9 @@ use crate::plan::{Plan, Unseen};
 use crate::reduction::Reduction;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::rubin::rank_or_attachment;
+use crate::verification::Evidence;
 use crate::verification::check::{Check, Limits, Verdict};
 use crate::verification::limits::energy_noise;
-use crate::verification::{self, Evidence};
 
 use alignment::{Combination, Freedom, combination};
 use asked::AskedModes;
@@ -196,7 +196,8 @@ impl<'a> Reference<'a> {
             return Ok(audit.sorted());
         }
         checks.extend(self.motions.checks(&file));
-        checks.extend(self.expectations(superelement));
+        checks.extend(coordinates::untested(self.partition));
+        checks.extend(weighed::expectations((self.plan, self.partition), &self.motions, superelement));
         self.matrices(superelement, &file, &mut audit)?;
         let is_missed = audit.checks.iter().any(|check| check.verdict() == Verdict::Fail);
         audit.notes.extend(self.partition.model.heavy.iter().filter(|_| is_missed).map(ToString::to_string));
@@ -229,24 +230,6 @@ impl<'a> Reference<'a> {
             ),
         }
         Ok(audit)
-    }
-
-    /// What the mass before supports says of a component whose file has no mass properties: that it is a body's, and what the job expects;
-    /// and what the stiffness does not say of its coordinates.
-    fn expectations(&self, superelement: &Superelement) -> Vec<Check> {
-        let is_weighed = !self.motions.is_classical() || self.partition.held.count() > 0;
-        let weighed = is_weighed.then(|| verification::of_weighed_body(self.partition)).flatten();
-        let mut checks: Vec<Check> = weighed.into_iter().chain(verification::of_parts(self.partition)).collect();
-        let has_properties = superelement.metadata().model.mass_properties.is_some();
-        checks.extend(mass::stated_of_model(superelement, self.partition));
-        checks.extend(coordinates::untested(self.partition));
-        let is_expected_here = !has_properties || self.partition.fit.is_preloaded();
-        if let Some(expect) = self.plan.job().model.expect.as_ref().filter(|_| is_expected_here) {
-            let lacks = verification::not_comparable(expect, self.partition);
-            checks.extend(verification::expected_by_weight(expect, self.partition));
-            checks.extend(verification::comparable(&lacks));
-        }
-        checks
     }
 
     /// Everything that has the coordinates of the file.

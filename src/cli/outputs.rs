@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use supel_runtime::{StagedFile, StagedWriter, abandoned_parts};
+use supel_runtime::{StagedFile, StagedWriter, abandoned_parts, writer_of_part};
 
 use super::overwriting::OwnFiles;
 use super::signals;
@@ -83,8 +83,7 @@ pub(super) fn abandoned(own: &OwnFiles) -> Vec<String> {
     parts.map(|part| format!("supel: {}: {}", part.display(), said(&part))).collect()
 }
 
-/// Whether the process whose number is in the name of a temporary file runs, where the system tells.
+/// Whether the process that writes a temporary file runs, where the system tells.
 fn is_of_running(part: &Path) -> bool {
-    let number = part.file_stem().and_then(|stem| Path::new(stem).extension()?.to_str()?.split('-').next());
-    number.is_some_and(|number| !number.is_empty() && Path::new("/proc").join(number).join("stat").exists())
+    writer_of_part(part).is_some_and(|process| Path::new("/proc").join(process.to_string()).exists())
 }

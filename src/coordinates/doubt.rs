@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::free::FREE_BELOW_NOISE;
-use super::motions::{Body, FIVE_DIGITS, Motions, SIX_DIGITS};
-use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes};
+use super::motions::{Body, Motions, SIX_DIGITS};
+use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes, makes_force};
 use crate::dofs::Direction;
 use crate::model::Finding;
 
@@ -44,7 +44,7 @@ pub(super) struct Costly {
 pub(super) fn doubts(motions: &Motions<'_>, nodes: &Nodes, held: &[Direction]) -> Vec<Doubt> {
     let of_body = |(number, body): (usize, &Body)| {
         let costly = costly_rotations(motions, nodes, body, held);
-        let n_touched = body.rows.iter().filter(|row| nodes.is_touched[nodes.of(**row)]).count();
+        let n_touched = body.rows.iter().filter(|row| nodes.is_touched(**row)).count();
         let is_in_doubt = n_touched > 0 || !costly.is_empty() || is_blind(motions, nodes, body, held);
         let untouched = || body.rows.iter().copied().filter(|row| nodes.is_untouched(*row)).collect();
         let n_rows = body.rows.iter().filter(|row| nodes.is_placed(**row)).count();
@@ -65,7 +65,7 @@ fn is_blind(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[Direction
 ///
 /// An energy within its noise says little, for it is the square of the force; and in a thin body little force is much energy.
 fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[Direction]) -> Vec<Costly> {
-    let is_touched = body.rows.iter().any(|row| nodes.is_touched[nodes.of(*row)]);
+    let is_touched = body.rows.iter().any(|row| nodes.is_touched(*row));
     let look = |axis: usize| {
         let rotation = FIRST_ROTATION + axis;
         let is_free = !is_touched && body.rows.iter().all(|row| !nodes.lacks_displacement(*row, axis));
@@ -90,7 +90,7 @@ fn costly_rotations(motions: &Motions<'_>, nodes: &Nodes, body: &Body, held: &[D
 fn is_out_of_place(motions: &Motions<'_>, row: usize, (rotation, lever_rounding): (usize, f64)) -> bool {
     let of_translations = (0..FIRST_ROTATION).map(|motion| motions.displacement(row, motion));
     let noise = of_translations.fold(motions.rounding_at(row).max(lever_rounding), f64::max);
-    motions.displacement(row, rotation) > FIVE_DIGITS.max(NOTICEABLE * noise)
+    makes_force(motions, row, rotation, noise)
 }
 
 /// Whether a rotation costs more than rounding, and more than soft springs to ground can hold of it. Those hold displacements by unit

@@ -78,7 +78,7 @@ fn turned_alone(motions: &Motions<'_>, nodes: &Nodes, rows: &[usize]) -> Option<
     let stiffness = &motions.model.stiffness;
     let counts = |row: &usize| nodes.is_placed(*row) && stiffness.get(*row, *row).is_some_and(|own| *own > 0.0);
     // Of nearly every body the first rows tell.
-    if rows.iter().any(|row| !nodes.is_touched[nodes.of(*row)] && counts(row)) {
+    if rows.iter().any(|row| !nodes.is_touched(*row) && counts(row)) {
         return None;
     }
     let mut of_node: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -109,7 +109,7 @@ fn let_go_alone(motions: &Motions<'_>, rows: &[usize]) -> Option<Mat<f64>> {
 /// The rows of touched nodes that K couples, ascending, without those of bodies that are touched all over.
 fn clusters(motions: &Motions<'_>, nodes: &Nodes) -> Vec<Vec<usize>> {
     let stiffness = crate::sparse::diagonal(&motions.model.stiffness);
-    let is_touched = |row: &usize| nodes.is_touched[nodes.of(*row)] && stiffness[*row] > 0.0;
+    let is_touched = |row: &usize| nodes.is_touched(*row) && stiffness[*row] > 0.0;
     let of_body = |rows: &Vec<usize>| {
         let touched: Vec<usize> = rows.iter().copied().filter(is_touched).collect();
         let with_stiffness = rows.iter().filter(|row| nodes.is_placed(**row) && stiffness[**row] > 0.0).count();

@@ -4,7 +4,7 @@
 //! translation along it, and its node lacks a direction. Where a node lacks a displacement that a rotation makes, its
 //! neighbours in K make forces under that rotation even if the coordinates are right.
 
-use super::motions::Motions;
+use super::motions::{FIVE_DIGITS, Motions};
 use crate::model::{Site, node_of_row};
 
 /// A force is worth a look when it exceeds this many times the noise of the data, or that of a translation: what a producer
@@ -26,8 +26,8 @@ pub(super) struct Nodes {
     of_row: Vec<u32>,
     /// Rows of nodes that have a place; amplitudes of modes have none.
     is_placed: Vec<bool>,
-    /// Nodes with a row on which a translation does not vanish.
-    pub(super) is_touched: Vec<bool>,
+    /// Translations that do not vanish on some row of a node.
+    felt: Vec<u8>,
     /// Rotations of which a node lacks a part: a displacement that they make, or the rotation itself where most nodes have it.
     lacks: Vec<u8>,
     /// Rotations of which a node or a neighbour in K lacks a part.
@@ -39,12 +39,13 @@ impl Nodes {
     pub(super) fn of_model(motions: &Motions<'_>) -> Self {
         let of_row = node_of_row(motions.sites.len(), motions.model.dofs.as_deref());
         let n_nodes = of_row.iter().max().map_or(0, |max| *max as usize + 1);
-        let force = |row: usize| (0..FIRST_ROTATION).fold(0.0, |max: f64, j| max.max(motions.forces[(row, j)].abs()));
-        let mut is_touched = vec![false; n_nodes];
+        let mut felt = vec![0u8; n_nodes];
         // Nothing holds amplitudes of modes: what K couples them with motions of the whole is rounding of zero, all terms of it.
         let is_placed: Vec<bool> = motions.sites.iter().map(Option::is_some).collect();
         for (row, node) in of_row.iter().enumerate().filter(|(row, _)| is_placed[*row]) {
-            is_touched[*node as usize] |= force(row) > noticeable_force(motions, row);
+            let noticeable = noticeable_force(motions, row);
+            let is_felt = |translation: &usize| motions.forces[(row, *translation)].abs() > noticeable;
+            (0..FIRST_ROTATION).filter(is_felt).for_each(|translation| felt[*node as usize] |= 1 << translation);
         }
         let lacks = lacking(motions, &of_row, n_nodes);
         let mut near = lacks.clone();
@@ -54,7 +55,7 @@ impl Nodes {
                 near[of_row[row] as usize] |= coupled.fold(0, |bits, (col, _)| bits | lacks[of_row[col] as usize]);
             }
         }
-        Self { of_row, is_placed, is_touched, lacks, near }
+        Self { of_row, is_placed, felt, lacks, near }
     }
 
     /// The node of a row.
@@ -69,7 +70,27 @@ impl Nodes {
 
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        self.is_touched.len()
+        self.felt.len()
+    }
+
+    /// Whether a translation does not vanish on the node of a row.
+    pub(super) fn is_touched(&self, row: usize) -> bool {
+        self.felt[self.of(row)] != 0
+    }
+
+    /// Whether the translation along an axis does not vanish on a node.
+    pub(super) fn feels(&self, node: usize, axis: usize) -> bool {
+        self.felt[node] & 1 << axis != 0
+    }
+
+    /// How many translations do not vanish on a node.
+    pub(super) fn n_felt(&self, node: usize) -> u32 {
+        self.felt[node].count_ones()
+    }
+
+    /// Nodes on which a translation does not vanish.
+    pub(super) fn n_touched(&self) -> usize {
+        self.felt.iter().filter(|felt| **felt != 0).count()
     }
 
     /// Whether the node of a row lacks a displacement that a unit rotation about an axis makes.
@@ -84,23 +105,28 @@ impl Nodes {
 
     /// Whether all of a rotation about an axis is there around a row, and no support touches it.
     pub(super) fn is_witness(&self, row: usize, axis: usize) -> bool {
-        self.is_placed[row] && !self.is_touched[self.of(row)] && self.is_whole(row, axis)
+        self.is_placed[row] && !self.is_touched(row) && self.is_whole(row, axis)
     }
 
     /// Whether no support touches any node, and none lacks a direction.
     pub(super) fn are_all_whole(&self) -> bool {
-        !self.is_touched.contains(&true) && self.lacks.iter().all(|lacks| *lacks == 0)
+        self.n_touched() == 0 && self.lacks.iter().all(|lacks| *lacks == 0)
     }
 
     /// Whether no support touches a row or may hold what is coupled to it.
     pub(super) fn is_untouched(&self, row: usize) -> bool {
-        !self.is_touched[self.of(row)] && !self.is_near_lack(self.of(row))
+        !self.is_touched(row) && !self.is_near_lack(self.of(row))
     }
 
     /// Whether a node or a neighbour of it lacks a direction.
     pub(super) fn is_near_lack(&self, node: usize) -> bool {
         self.near[node] != 0
     }
+}
+
+/// Whether a motion makes a force at a row that neither noise nor coordinates of five digits make.
+pub(super) fn makes_force(motions: &Motions<'_>, row: usize, motion: usize, noise: f64) -> bool {
+    motions.displacement(row, motion) > FIVE_DIGITS.max(NOTICEABLE * noise)
 }
 
 /// A force of a translation at a row above which something holds it, or above which its axes are off by more than their digits.

@@ -57,8 +57,10 @@ impl Passing {
             motion
         };
         let turns: [[f64; 6]; 3] = std::array::from_fn(turn);
-        let all = (0..FIRST_ROTATION).map(unit).chain(turns);
-        Ok(Self { combinations: all.filter(passes).collect(), turns: turns.map(|turn| passes(&turn)) })
+        let passing_turns = turns.map(|turn| passes(&turn));
+        let translations = (0..FIRST_ROTATION).map(unit).filter(passes);
+        let turning = turns.into_iter().zip(passing_turns).filter(|(_, passes)| *passes).map(|(turn, _)| turn);
+        Ok(Self { combinations: translations.chain(turning).collect(), turns: passing_turns })
     }
 
     /// Whether one of them moves a row.

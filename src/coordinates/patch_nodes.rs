@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::motions::{FIVE_DIGITS, Motions};
-use super::nodes::{FIRST_ROTATION, NOTICEABLE, Nodes, noticeable_force};
+use super::nodes::{FIRST_ROTATION, Nodes, makes_force};
 use super::passing::Passing;
 use crate::dofs::Direction;
 use crate::error::Result;
@@ -45,6 +45,9 @@ pub(super) fn unconfirmed(motions: &Motions<'_>, nodes: &Nodes, tied: &TiedNodes
     dofs.filter(|(_, node)| tied.contains(*node)).for_each(|(row, node)| {
         labels.insert(nodes.of(row), node);
     });
+    if labels.is_empty() {
+        return Ok(None);
+    }
     let witnesses = Witnesses::of(motions, nodes)?;
     let unconfirmed: Vec<i64> =
         labels.iter().filter(|(node, _)| !witnesses.confirm(**node)).map(|(_, label)| *label).collect();
@@ -69,29 +72,25 @@ impl<'a> Witnesses<'a> {
             }
         }
         let passing = motions.bodies.iter().map(|body| Passing::of(motions, nodes, body)).collect::<Result<_>>()?;
-        let spread = vec![[0.0; 3]; motions.bodies.len()];
-        let mut witnesses = Self { motions, nodes, rows_of, body_of, spread, passing };
-        witnesses.spread = witnesses.spreads();
-        Ok(witnesses)
-    }
-
-    fn spreads(&self) -> Vec<[f64; 3]> {
-        let mut extent = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 3]; self.motions.bodies.len()];
-        for (node, rows) in self.rows_of.iter().enumerate() {
-            let (Some(body), Some(first)) = (self.body_of[node], rows.first()) else { continue };
-            let Some(site) = self.motions.sites[*first] else { continue };
-            for axis in (0..3).filter(|axis| self.row_of(node, *axis).is_none()) {
+        let mut extent = vec![[[f64::INFINITY, f64::NEG_INFINITY]; 3]; motions.bodies.len()];
+        for (rows, body) in rows_of.iter().zip(&body_of) {
+            let (Some(body), Some(site)) = (*body, rows.first().and_then(|first| motions.sites[*first])) else {
+                continue;
+            };
+            for axis in (0..3).filter(|axis| displacement_row(motions, rows, *axis).is_none()) {
                 let [least, most] = &mut extent[body][axis];
                 (*least, *most) = (least.min(site.position[axis]), most.max(site.position[axis]));
             }
         }
-        extent.into_iter().map(|of_body| of_body.map(|[least, most]| most - least)).collect()
+        let spread = extent.into_iter().map(|of_body| of_body.map(|[least, most]| most - least)).collect();
+        Ok(Self { motions, nodes, rows_of, body_of, spread, passing })
     }
 
     /// Whether something confirms the coordinates and the axes by which a node is tied.
     fn confirm(&self, node: usize) -> bool {
         let around: BTreeSet<usize> = self.rows_of[node].iter().flat_map(|row| self.coupled(*row)).collect();
-        let has_axes = around.is_empty() || around.iter().any(|other| self.n_translations_felt(*other) <= 1);
+        // A plane of symmetry holds one translation, and axes that are off show along two at least.
+        let has_axes = around.is_empty() || around.iter().any(|other| self.nodes.n_felt(*other) <= 1);
         (has_axes || self.passes_along_axes(node))
             && (0..3).all(|axis| self.confirms_coordinate(node, axis) || self.is_in_plane(node, axis))
     }
@@ -126,21 +125,8 @@ impl<'a> Witnesses<'a> {
         n_moved >= rows.len().min(2)
     }
 
-    /// The row of a displacement of a node.
     fn row_of(&self, node: usize, axis: usize) -> Option<usize> {
-        let is_it = |row: &usize| self.motions.sites[*row].is_some_and(|site| site.direction == Direction::ALL[axis]);
-        self.rows_of[node].iter().copied().find(is_it)
-    }
-
-    /// Along how many axes a translation makes a force at a node. A plane of symmetry holds one, and axes that are off show along two at
-    /// least.
-    fn n_translations_felt(&self, node: usize) -> usize {
-        (0..FIRST_ROTATION).filter(|translation| self.feels(node, *translation)).count()
-    }
-
-    fn feels(&self, node: usize, translation: usize) -> bool {
-        let force = |row: &usize| self.motions.forces[(*row, translation)].abs();
-        self.rows_of[node].iter().any(|row| force(row) > noticeable_force(self.motions, *row))
+        displacement_row(self.motions, &self.rows_of[node], axis)
     }
 
     /// Whether a node shows by the turn about an axis that another around it is out of place: it makes no force, and nothing holds what
@@ -152,10 +138,10 @@ impl<'a> Witnesses<'a> {
         }
         let lever_rounding = self.motions.bodies[body].lever_rounding;
         let noise = |row: usize| self.motions.rounding_at(row).max(lever_rounding);
-        let turned = |row: usize| self.motions.displacement(row, FIRST_ROTATION + about);
+        let is_out_of_place = |row: &usize| makes_force(self.motions, *row, FIRST_ROTATION + about, noise(*row));
         self.nodes.is_whole(*first, about)
-            && (0..FIRST_ROTATION).all(|axis| axis == about || !self.feels(node, axis))
-            && self.rows_of[node].iter().all(|row| turned(*row) <= FIVE_DIGITS.max(NOTICEABLE * noise(*row)))
+            && (0..FIRST_ROTATION).all(|axis| axis == about || !self.nodes.feels(node, axis))
+            && !self.rows_of[node].iter().any(is_out_of_place)
     }
 
     /// Whether a node has no displacement along an axis and lies in one plane across it with all others of its body that have none.
@@ -164,4 +150,10 @@ impl<'a> Witnesses<'a> {
             && self.body_of[node]
                 .is_some_and(|body| self.spread[body][axis] <= FIVE_DIGITS * self.motions.bodies[body].frame.size)
     }
+}
+
+/// The row among those of a node that is its displacement along an axis.
+fn displacement_row(motions: &Motions<'_>, rows: &[usize], axis: usize) -> Option<usize> {
+    let is_it = |row: &usize| motions.sites[*row].is_some_and(|site| site.direction == Direction::ALL[axis]);
+    rows.iter().copied().find(is_it)
 }

@@ -47,9 +47,10 @@ fn tied_rows(motions: &Motions<'_>, tied: &TiedNodes) -> Vec<bool> {
 
 /// Refuses a K that supports have taken rows out of: their part of the forces is missing.
 fn refuse_held(motions: &Motions<'_>, nodes: &Nodes) -> Result<()> {
-    let n_touched = nodes.is_touched.iter().filter(|is_touched| **is_touched).count();
-    match (0..motions.sites.len()).find(|row| nodes.is_touched[nodes.of(*row)]) {
-        Some(row) => Err(Error::PreloadHeld { n_touched, n_nodes: nodes.count(), dof: motions.name_of(row) }),
+    match (0..motions.sites.len()).find(|row| nodes.is_touched(*row)) {
+        Some(row) => {
+            Err(Error::PreloadHeld { n_touched: nodes.n_touched(), n_nodes: nodes.count(), dof: motions.name_of(row) })
+        }
         None => Ok(()),
     }
 }

@@ -168,7 +168,7 @@ impl Sizes {
     }
 
     /// Columns of an eigensolution with so many modes: the iteration, with what it deflates. Solves of 32 searches for 5, 20 and 60 modes on
-    /// five parts of 3,000 to 120,000 dofs: 41 to 93, 104 to 148 and 268 to 328.
+    /// six parts of 3,000 to 120,000 dofs: 41 to 93, 104 to 148 and 268 to 328.
     pub(super) fn iterated(modes: f64) -> f64 {
         const OF_A_MODE: f64 = 4.3;
         const BESIDE: f64 = 45.0;

@@ -301,8 +301,7 @@ impl std::fmt::Display for Finding {
             Self::FrameDigits { file, node, line, decimals } => f.write_str(&words::frame_digits(file, [*node, *line as i64], *decimals)),
             Self::MotionsUncounted => f.write_str(
                 "the motions without energy of K cannot be counted, for it is badly conditioned or has mechanisms of its own: nothing \
-                 confirms the coordinates where supports are; \
-                 check that rows and map are in one order",
+                 confirms the coordinates where supports are; check that rows and map are in one order",
             ),
             Self::MassByDirection { n_nodes, at } => f.write_str(&words::mass_by_direction(*n_nodes, at)),
             Self::RotationsFree { rotations } => f.write_str(&words::rotations_free(rotations)),

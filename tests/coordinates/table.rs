@@ -98,7 +98,8 @@ fn wrong_maps_and_coordinates_of_a_clamped_component() {
 }
 
 /// Frames at a few nodes of a clamped component look like one more support to K. The mass tells, unless it is lumped: the same
-/// in every frame; then only a patch that ties such a node is told that nothing confirms it. A map that mixes directions makes forces at so many rows that no witness is left.
+/// in every frame; then only a patch that ties such a node is told that nothing confirms it. A map that mixes directions makes
+/// forces at so many rows that no witness is left.
 #[test]
 fn directions_of_a_clamped_component() {
     for Outcome { fault, coupling, method, said } in outcomes(&clamped(), FAULTS_OF_DIRECTIONS) {
