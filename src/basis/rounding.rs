@@ -26,7 +26,8 @@ const UNKNOWN: f64 = (NOISE_FACTOR * f64::EPSILON) * (NOISE_FACTOR * f64::EPSILO
 
 /// Sets accelerated columns to zero that rounding may have made, or that tell nothing beyond it.
 ///
-/// - The difference keeps no more than [`INDEPENDENT`] of its terms: the interior follows the interface statically.
+/// - The difference keeps no more than [`INDEPENDENT`] of its terms, where stiffness lies and where mass does: the interior follows the
+///   interface statically. What moves the mass of a soft part alone is nothing next to the stiffness of the others.
 /// - cᵀMc is at most (10 ε)² of |x|ᵀ|M||x|: the mode itself is not known that well.
 /// - cᵀKc ≤ ελ and cᵀMc ≤ ε: with (Kx)_I = K_II c = λ(Mx)_I the motion x − \[c; 0\], which the interface makes alone, has the
 ///   Rayleigh quotient λ (1 − cᵀKc/λ) / (1 − 2cᵀKc/λ + cᵀMc). That is λ but for its last digit.
@@ -55,7 +56,8 @@ pub(super) fn clear_rounding(
             let j = columns.start + at;
             let following =
                 dense::column(x_b, j).iter().zip(&of_psi_s).map(|(x, length)| x.abs() * length).sum::<f64>();
-            let follows = length(column) <= INDEPENDENT * (length(dense::column(x_i, j)) + following);
+            let follows = length(column) <= INDEPENDENT * (length(dense::column(x_i, j)) + following)
+                && inertias[at] <= INDEPENDENT * INDEPENDENT * terms[at];
             let is_unknown = inertias[at] <= UNKNOWN * terms[at];
             let changes_nothing = energies[at] <= f64::EPSILON * modes.lambda[j] && inertias[at] <= f64::EPSILON;
             follows || is_unknown || changes_nothing

@@ -66,7 +66,8 @@ fn a_joint_that_few_digits_lose_is_no_hinge() {
 }
 
 /// Rounding of a block makes as much energy of rigid-body motion as a joint of a billionth of its stiffness has of a hundred-thousandth of its
-/// motion. No mode with the interface held knows of it: the blocks hardly strain in them.
+/// motion. No mode with the interface held knows of it: the blocks hardly strain in them. What moves within the joint counts, though it has no
+/// stiffness next to that of the blocks: no mode is left out of the basis for it that `verify` would miss.
 #[test]
 fn a_joint_that_no_digits_lose_is_reduced_by_every_method() {
     let model = blocks(1e-9);
@@ -75,10 +76,8 @@ fn a_joint_that_no_digits_lose_is_reduced_by_every_method() {
         for coupling in ["rigid", "average", "direct"] {
             let ended = reduced(&place, &model, (method, coupling), "");
             assert_eq!(ended.code, ExitCode::Done, "{method}, {coupling}: {}{}", ended.out, ended.err);
-            if method == "craig-bampton" {
-                supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
-                supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
-            }
+            supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done);
+            supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]).expect(ExitCode::Done);
         }
     }
 }
