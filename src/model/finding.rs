@@ -103,6 +103,13 @@ pub enum Finding {
         /// Some of them.
         at: String,
     },
+    /// A patch ties bodies that the stiffness does not connect.
+    PatchOverBodies {
+        /// Its interface.
+        interface: String,
+        /// How many bodies it ties.
+        n_bodies: usize,
+    },
     /// The motions without energy of a held model cannot be counted, so that nothing confirms the coordinates at its supports.
     MotionsUncounted,
     /// Nodes of a held body that have another mass in one direction than in another.
@@ -249,7 +256,10 @@ impl Finding {
             Self::Symmetrised { of_largest, of_rows, .. } => {
                 (*of_largest > ASYMMETRY_WARN || *of_rows > ASYMMETRY_OF_ROWS_WARN).then_some("W-UNSYMMETRIC")
             }
-            Self::MasslessRows { .. } | Self::HeldByDiagonal { .. } | Self::Constrained { .. } => None,
+            Self::MasslessRows { .. }
+            | Self::HeldByDiagonal { .. }
+            | Self::Constrained { .. }
+            | Self::PatchOverBodies { .. } => None,
             Self::FreeParticles { .. } => Some("W-FREE-PARTICLE"),
             Self::MassCouplesOthers { .. } => Some("W-MASS-ORDER"),
             Self::Penalties { .. } => Some("W-PENALTY"),
@@ -298,6 +308,7 @@ impl std::fmt::Display for Finding {
                 f.write_str(&words::coordinates_untested(*n_touched, *n_rows, *largest))
             }
             Self::PatchNodesUntested { n_nodes, n_tied, at } => f.write_str(&words::patch_nodes_untested([*n_nodes, *n_tied], at)),
+            Self::PatchOverBodies { interface, n_bodies } => f.write_str(&words::patch_over_bodies(interface, *n_bodies)),
             Self::FrameDigits { file, node, line, decimals } => f.write_str(&words::frame_digits(file, [*node, *line as i64], *decimals)),
             Self::MotionsUncounted => f.write_str(
                 "the motions without energy of K cannot be counted, for it is badly conditioned or has mechanisms of its own: nothing \

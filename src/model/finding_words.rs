@@ -115,6 +115,13 @@ pub(super) fn origin_far(interface: &str, origin: [f64; 3], ratio: f64) -> Strin
     )
 }
 
+pub(super) fn patch_over_bodies(interface: &str, n_bodies: usize) -> String {
+    format!(
+        "interface {interface:?} ties {n_bodies} bodies that the stiffness does not connect: where they lie to each other is taken from the \
+         coordinates, and nothing confirms it"
+    )
+}
+
 pub(super) fn mass_far(interface: &str, centre: [f64; 3], [distance, loss]: [f64; 2]) -> String {
     format!(
         "the mass at interface {interface:?} is centred {} away from its node: {} digits of its inertia are lost on that lever; set \

@@ -300,7 +300,9 @@ fn check_diagonals(
             }
             continue;
         }
-        if k_empty {
+        // Of a superelement that one node holds, K̂ has no other rows: inertia couples the node with the motion inside.
+        let is_amplitude = |other: usize| names.is_scalar(other) && k_diag[other] > 0.0;
+        if k_empty && !couples(mass, row, is_amplitude) {
             particles.push(row);
         }
         if m_empty {
@@ -327,6 +329,12 @@ fn check_diagonals(
     findings.extend(Finding::free_particles(particles, names));
     findings.extend(penalties(&k_diag, names));
     Ok(())
+}
+
+/// Whether a matrix couples a row with one of a kind.
+fn couples(matrix: &SparseMatrix, row: usize, is_of_kind: impl Fn(usize) -> bool) -> bool {
+    let entries = matrix.outer_view(row);
+    entries.iter().flat_map(|view| view.iter()).any(|(other, value)| *value != 0.0 && is_of_kind(other))
 }
 
 /// Refuses a dof without stiffness of its own but a negative one. A preloaded component may have such dofs where the job holds them or a

@@ -46,6 +46,7 @@ mod origin;
 #[expect(clippy::module_inception, reason = "the partition is what the folder makes")]
 mod partition;
 mod parts;
+mod patch_bodies;
 mod placement;
 mod pressure;
 mod problem;

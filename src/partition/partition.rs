@@ -25,6 +25,7 @@ use super::interface::{Output, RecoveredRows};
 use super::interface_node::{InterfaceNode, NodeNames};
 use super::load::Loads;
 use super::mixed_interface::MixedInterface;
+use super::patch_bodies::over_bodies;
 use super::quantities::Quantities;
 use super::roundings::{PatchEntries, Roundings};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
@@ -183,7 +184,7 @@ impl Partition {
         refuse_larger(transformation.dofs.len() - n_internal)?;
         let mut findings = missing_directions::constrained_nodes(&model, &resolved);
         let mut facts = ModelFacts { n_dependent, n_held, ..facts(&model, &transformation, &held) };
-        facts.findings.extend(constrained);
+        facts.findings.extend(constrained.into_iter().chain(over_bodies(&model, &resolved)));
         let gravity = gravity::gravity(&model, &transformation, &held);
         let followers = follower::followers(&model, &transformation);
         let ([interface, left_out], unloaded) = resolved.into_nodes();
@@ -373,17 +374,25 @@ fn of_interface(
     (names, rows): (NodeNames<'_>, &FileRows),
 ) -> Vec<Finding> {
     findings.extend(far_masses(mass, transformation, names));
-    findings.extend(hanging_dofs(stiffness, transformation, (names, rows)));
+    findings.extend(hanging_dofs([stiffness, mass], transformation, (names, rows)));
     findings
 }
 
-/// Interface dofs that no stiffness reaches; the model has seen to it that they have mass.
+/// Interface dofs that no stiffness reaches; the model has seen to it that they have mass. Those of a superelement that one node holds ride on
+/// what is inside by its mass.
 fn hanging_dofs(
-    stiffness: &SparseMatrix,
+    [stiffness, mass]: [&SparseMatrix; 2],
     partition: &Transformation,
     (names, rows): (NodeNames<'_>, &FileRows),
 ) -> Option<Finding> {
-    let hanging = (partition.n_internal()..partition.dofs.len()).filter(|dof| is_bare(stiffness, *dof));
+    let has_map = partition.dofs.iter().any(|dof| dof.dof.is_some());
+    let is_amplitude = |dof: &ReducedDof| has_map && dof.dof.is_none() && matches!(dof.origin, DofOrigin::Row(_));
+    let rides = |dof: usize| {
+        let entries = mass.outer_view(dof);
+        let mut coupled = entries.iter().flat_map(|view| view.iter()).filter(|(_, value)| **value != 0.0);
+        coupled.any(|(other, _)| is_amplitude(&partition.dofs[other]) && !is_bare(stiffness, other))
+    };
+    let hanging = (partition.n_internal()..partition.dofs.len()).filter(|dof| is_bare(stiffness, *dof) && !rides(*dof));
     let hanging: Vec<usize> = hanging.collect();
     let first = *hanging.first()?;
     Some(Finding::HangingInterface { dof: partition.dofs[first].name(names, rows), n_dofs: hanging.len() })

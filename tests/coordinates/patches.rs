@@ -1,7 +1,7 @@
 //! Nodes of patches whose coordinates and axes supports hide: it is said of each way to hide them, and never of sound parts.
 
 use supel::cli::ExitCode;
-use supel_models::transform::{grounded, in_local_frames, supported};
+use supel_models::transform::{grounded, in_local_frames, join, supported, translated};
 use supel_models::{Inertia, Material, Model, Section, brick, frame};
 
 use crate::frames::{axes_turned_by, lumped};
@@ -149,4 +149,21 @@ fn bending_alone_out_of_a_plane_is_told() {
         ended.out,
         ended.err
     );
+}
+
+/// Each of two bodies agrees with K wherever it lies, and so does what a patch makes of both.
+#[test]
+fn what_ties_bodies_says_that_their_places_are_not_confirmed() {
+    let one = brick([3, 2, 2], [0.6, 0.35, 0.27], &Material::STEEL_SI);
+    let two = join(&one, &translated(&one, [0.8, 0.0, 0.0]), &[]);
+    let [end, start] = ["XMAX", "B.XMIN"].map(|name| two.groups[name].clone());
+    let patch = |nodes: &[i64]| format!("nodes = {nodes:?}\ncoupling = \"rigid\"");
+    let both = patch(&[&end[..], &start].concat());
+    let each = format!("{}\n[[interface]]\nname = \"other\"\n{}", patch(&end), patch(&start));
+    for (interfaces, is_said) in [(both, true), (each, false)] {
+        let (place, ended) = by_job(&two, "", &interfaces);
+        assert_eq!(ended.code, ExitCode::Done, "{}{}", ended.out, ended.err);
+        let notes = place.report("x.report.json")["body"]["model"]["notes"].to_string();
+        assert_eq!(notes.contains("ties 2 bodies that the stiffness does not connect"), is_said, "{notes}");
+    }
 }
