@@ -167,12 +167,11 @@ fn matrices(model: &JoinedModel) -> [MatRef<'_, f64>; 2] {
     [model.stiffness.as_ref(), model.mass.as_ref()]
 }
 
-/// Mechanisms are meant where a component says so, and where joints leave one.
+/// Mechanisms are meant where a component says so, and where one was found in a component or joints leave one.
 fn mechanisms_of_whole(assembly: &Assembly, model: &JoinedModel) -> Result<Mechanisms> {
     let is_said = |component: &Component| mechanisms(&component.superelement) == Mechanisms::Accept;
     let rows = (&*places(model), &*dense::diagonal(model.mass.as_ref()));
-    let is_meant = assembly.components.iter().any(is_said)
-        || !assembly.joints.is_empty() && gives_way(rows, matrices(model), model.rigid.as_ref())?;
+    let is_meant = assembly.components.iter().any(is_said) || gives_way(rows, matrices(model), model.rigid.as_ref())?;
     Ok(if is_meant { Mechanisms::Accept } else { Mechanisms::Warn })
 }
 

@@ -12,7 +12,7 @@ use super::assumed::assumed;
 use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
 use super::names::Names;
-use super::strainless_motion::{is_held_and_gives_way, rotations_held_alone};
+use super::strainless_motion::{gives_way, is_held_and_gives_way, rotations_held_alone};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
@@ -70,7 +70,10 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
         } else {
             held_rotations(superelement)
         },
-        mechanisms: mechanisms(superelement),
+        mechanisms: match gives_way_inside(superelement, &condensed.stiffness)? {
+            true => Mechanisms::Accept,
+            false => mechanisms(superelement),
+        },
         digits,
         assumes,
         interfaces: if has_map || labels.is_empty() {
@@ -142,6 +145,14 @@ fn with_held_alone((superelement, assumes): (&Superelement, &AssumesJob), stiffn
     let all: BTreeSet<String> =
         held_rotations(superelement).into_iter().chain(found.iter().map(ToString::to_string)).collect();
     Ok(all.into_iter().collect())
+}
+
+/// Whether the superelement has motions without energy that its nodes do not explain: the reduction that made it found them, and the digits of
+/// its matrices are those of all of it.
+fn gives_way_inside(superelement: &Superelement, stiffness: &Matrix) -> Result<bool> {
+    let tensors = superelement.tensors();
+    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    gives_way((&places(superelement), &masses(superelement)), [k.as_ref(), m.as_ref()], u.as_ref())
 }
 
 /// What the job of the superelement says of mechanisms.

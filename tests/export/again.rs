@@ -380,3 +380,31 @@ fn a_held_superelement_is_reduced_again_with_more_held() {
         }
     }
 }
+
+/// With one node as its interface K̂ of a free component has no stiffness there: inertia couples the node with what is inside, and nothing is loose.
+#[test]
+fn a_superelement_that_one_node_holds_has_no_loose_rows() {
+    for method in METHODS {
+        for interface in
+            ["nodes = [1, 2, 3, 6, 7, 8], coupling = \"rigid\"", "nodes = [1, 2, 3, 6, 7, 8], coupling = \"average\""]
+        {
+            let place = Place::with_brick();
+            let job = format!(
+                "model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+                 interface = [{{ name = \"foot\", {interface} }}]\n\
+                 reduction = {{ method = \"{method}\", modes = {{ count = 6 }} }}\n\
+                 write = {{ superelement = \"x.supel\" }}\n"
+            );
+            place.write("job.toml", job.as_bytes());
+            supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+            let again = ["reduce", &place.text("x.supel"), "--output", &place.text("again.supel")];
+            supel(&again).expect(ExitCode::Done);
+            let report = place.report("again.report.json");
+            let codes = report["body"]["warnings"].to_string();
+            assert!(
+                !codes.contains("W-FREE-PARTICLE") && !codes.contains("W-HANGING"),
+                "{method}, {interface}: {codes}"
+            );
+        }
+    }
+}

@@ -97,6 +97,21 @@ fn mechanisms_that_are_meant_are_meant_again() {
     assert_eq!(first.metadata().validity.assumptions, second.metadata().validity.assumptions);
 }
 
+/// So is a hinge that nobody had announced: digits of a superelement are measured, and a hinge in few of them would be refused.
+#[test]
+fn a_hinge_that_was_found_is_meant_again() {
+    let place = Place::with(&hinged());
+    let tables = "interface = [{ name = \"here\", nodes = [1, 2, 4, 7] }, { name = \"there\", nodes = [15, 18, 21] }]\n\
+         reduction = { method = \"herting\", modes = { count = 3 } }\n";
+    reduced(&place, ("", tables));
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    assert!(job_text(&place, "x.job.toml").contains("mechanisms = \"accept\""));
+    supel(&["reduce", &place.text("x.job.toml")]).expect(ExitCode::Done);
+    supel(&["reduce", &place.text("x.supel"), "--output", &place.text("direct.supel")]).expect(ExitCode::Done);
+    let of = |name: &str| place.superelement(name).n_rigid();
+    assert_eq!(["x.supel", "x.again.supel", "direct.supel"].map(of), [7, 7, 7]);
+}
+
 /// Two frames of eight nodes, the end of one on the start of the other, which is its ninth to sixteenth node; nothing ties them.
 fn two_frames() -> Model {
     let at = |i: usize, turn: f64| {
