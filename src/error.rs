@@ -2545,10 +2545,15 @@ pub enum Error {
         value: f64,
     },
     /// A diagonal entry of M is negative.
-    #[entry("E-NEG-MASS", ModelPhysics, "check point masses and offsets")]
+    #[entry(
+        "E-NEG-MASS",
+        ModelPhysics,
+        "check point masses and offsets; where rows of second-order elements were summed up to a lumped mass, which is negative at corners, \
+        write the consistent mass or one that is scaled by its diagonal"
+    )]
     #[error(
         "row {row}{dof} of the mass has the diagonal {value:.3e} – expected none below zero – check point masses and \
-        offsets of the model"
+        offsets of the model; where rows of second-order elements were summed up, which is negative at corners, write the consistent mass"
     )]
     NegativeMass {
         /// The row, from one.

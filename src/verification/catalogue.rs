@@ -198,6 +198,14 @@ pub const OF_RESULTS: &[Entry] = &[
          a tenth, and warns where nothing shows that they are needed.",
         "The mode named was lost on the way: compute the modes again, with a count of them.",
     ),
+    line(
+        "C-13",
+        Proof::Measured,
+        Recorded::Sometimes,
+        "Where K̂ and M̂ name their rows, each column that moves a node and direction of the model has a row of that name. A row with the name \
+         of another node joins that one to whatever is connected by names, and fails; a name that the model has not is a warning.",
+        "Write the rows of K̂ and M̂ by the nodes that the columns of the basis move, or give the basis that belongs to them.",
+    ),
 ];
 
 /// Every check of a reduction, in the order of the identifiers.
@@ -475,8 +483,8 @@ pub const CATALOGUE: &[Entry] = &[
         Recorded::Sometimes,
         "Comparisons that were to be made and that have no answer: where the reduced matrices are singular together, or negative, no \
          frequency and no response of theirs exists. A comparison that was left out because of what it costs is not counted.",
-        "Look at what is named, and at M-23 and M-25: a column of the basis may depend on the others. A superelement that has no answer here \
-         has none in a simulation.",
+        "Look at what is named, and at M-23 and M-25: a column of the basis may depend on the others. Where its own matrices are what has no \
+         answer, a simulation has none either.",
     ),
     line(
         "M-34",

@@ -14,7 +14,8 @@
 //! Cost: n_B to 2 n_B solves and 24 n' r_e n_B operations for each step, 2 n' (2 r_e + n_B)² for the residuals of all samples
 //! together; memory 5 n' r_e.
 
-use faer::{Mat, MatRef};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, MatRef, Scale, Side};
 use rayon::prelude::*;
 
 use super::super::evidence::Evidence;
@@ -22,7 +23,7 @@ use super::shift::shift;
 use super::space::{FullModel, RESIDUAL, Space, bound_of, coefficients, size_by};
 use crate::dense;
 use crate::eigen::{Equilibrated, Spectral, mass_qr};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::factor::SolveOperator;
 use crate::reduction::panel_of;
 use crate::sparse::product;
@@ -204,7 +205,7 @@ impl<'a> Extended<'a> {
         let (n_i, n) = (partition.n_internal, partition.n_dofs());
         let mut directions = self.compressed(residual)?;
         self.factor.solve_in_place(directions.as_mut());
-        let fresh = self.independent(directions);
+        let fresh = self.independent(directions)?;
         if fresh.ncols() == 0 {
             return Ok(false);
         }
@@ -245,14 +246,29 @@ impl<'a> Extended<'a> {
         Ok(dense::product(all.as_ref(), directions.as_ref().subcols(first, squares.len() - first)))
     }
 
-    /// Columns M_II-orthonormal to one another and to the dynamic columns of the basis; dependent ones are left out.
-    fn independent(&self, mut block: Mat<f64>) -> Mat<f64> {
+    /// Columns that are orthonormal to one another and to the dynamic columns of the basis, in the norm W = M_II + K_II/α that spectral forms
+    /// factor; dependent ones are left out.
+    ///
+    /// In M_II alone columns would be told apart that differ in the little mass of a motion which has all their energy, as of rotations that
+    /// nothing but a drilling spring holds: with stiffness there is nothing to tell them by.
+    fn independent(&self, mut block: Mat<f64>) -> Result<Mat<f64>> {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
-        let mass = self.evidence.partition.internal().mass;
-        let earlier = self.basis.as_ref().submatrix(0, n_b, n_i, self.basis.ncols() - n_b);
+        let (pencil, alpha) = (self.evidence.partition.internal(), shift(self.evidence)?);
+        let in_norm = |block: &Mat<f64>| {
+            let mut image = product(pencil.stiffness, block.as_ref());
+            image *= Scale(1.0 / alpha);
+            image += product(pencil.mass, block.as_ref());
+            image
+        };
+        let n_dynamic = self.basis.ncols() - n_b;
+        let earlier = self.basis.as_ref().submatrix(0, n_b, n_i, n_dynamic);
+        let own = Mat::from_fn(n_dynamic, n_dynamic, |i, j| {
+            self.stiffness[(n_b + i, n_b + j)] / alpha + self.mass[(n_b + i, n_b + j)]
+        });
+        let own = own.llt(Side::Lower).map_err(|_| Error::DenseEigen { n: n_dynamic })?;
         let mut dependent = vec![false; block.ncols()];
         for pass in 0..2 {
-            let mut image = product(mass, block.as_ref());
+            let mut image = in_norm(&block);
             for j in 0..block.ncols() {
                 let length =
                     dense::dot(dense::column(block.as_ref(), j), dense::column(image.as_ref(), j)).max(0.0).sqrt();
@@ -261,14 +277,14 @@ impl<'a> Extended<'a> {
                     dense::column_mut(side.as_mut(), j).iter_mut().for_each(|value| *value *= factor);
                 }
             }
-            let coefficients = dense::gram(earlier, image.as_ref());
+            let coefficients = own.solve(dense::gram(earlier, image.as_ref()));
             dense::add_product(block.as_mut(), -1.0, earlier, coefficients.as_ref());
-            image = product(mass, block.as_ref());
+            image = in_norm(&block);
             let least = if pass == 0 { INDEPENDENT } else { 0.0 };
             mass_qr(&mut block, &mut image, least, &mut dependent);
         }
         let kept: Vec<usize> = (0..block.ncols()).filter(|j| !dependent[*j]).collect();
-        dense::columns(block.as_ref(), &kept)
+        Ok(dense::columns(block.as_ref(), &kept))
     }
 
     /// The spectral form of the full model on the basis, and Ψ_eᵀKΨ_e.
