@@ -38,7 +38,7 @@ use supel_runtime::Superelement;
 use super::Audit;
 use super::content::{ModelNoise, mass_rank};
 use super::spectrum::condition_of;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::Factored;
 use crate::error::{Error, Result};
 use crate::factor::Analysis;
@@ -60,7 +60,7 @@ use attached::FreeAnswers;
 use columns::{Columns, Motions};
 use comparison::Comparison;
 use full::Full;
-use interior::Interior;
+use interior::{Interior, Solved};
 use motions::{KnownMotions, Sight};
 use nearby::Nearby;
 use projection::{Massive, Projected};
@@ -273,14 +273,17 @@ impl<'a> Reference<'a> {
 
     /// M-10: how well the static answers solve the full model.
     fn solves(&self) -> Check {
-        let limits = Limits { engineering: 1e-10, arithmetic: self.motions.rounding(), data: 0.0 };
+        const FAIL: f64 = 1e-6;
+        let Solved { residual, rounding } = self.projected.solved;
+        let arithmetic = self.motions.rounding().max((NOISE_FACTOR * rounding).min(FAIL));
+        let limits = Limits { engineering: 1e-10, arithmetic, data: 0.0 };
         Check {
             id: "M-10",
             name: "static loads on the full model were solved",
             equation: "max ‖f − K_II x‖ / ‖f‖, of a free component ‖f − Kx‖ / ‖f‖, by conjugate gradients",
-            value: self.projected.residual,
+            value: residual,
             limits,
-            fail_above: limits.value().max(1e-6),
+            fail_above: limits.value().max(FAIL),
             worst: Some(format!("{} motions of the interface", self.projected.n_probes())),
         }
     }

@@ -4,7 +4,7 @@ use supel::cli::ExitCode;
 use supel_models::model::Assembler;
 use supel_models::springs::springs;
 use supel_models::transform::{carrying, grounded, join, rounded, translated};
-use supel_models::{Ends, Inertia, Material, Model, Section, brick, frame, spring};
+use supel_models::{Ends, HexMesh, Inertia, Material, Model, Section, brick, frame, spring};
 
 use crate::place::{Place, supel};
 
@@ -437,5 +437,30 @@ fn attachment_modes_next_to_a_heavy_mass() {
             ExitCode::Done => supel(&["verify", &place.text("x.supel")]).expect(ExitCode::Done),
             _ => made,
         };
+    }
+}
+
+/// A rigid patch whose nodes hardly hold the turn about their own line: rounding leaves more of its static answers than of others.
+#[test]
+fn static_answers_of_an_interface_nearly_in_line() {
+    for bump in [1e-3, 5e-4, 3e-4] {
+        let along = |[x, y, z]: [f64; 3]| match [x, y, z] {
+            [0.5, 0.0, 0.0] => [x, bump, 0.0],
+            _ => [x, 0.1 * y, 0.1 * z],
+        };
+        let mut mesh = HexMesh::structured([6, 2, 2], along, |_| true);
+        mesh.add_group("EDGE", |[_, y, z]| y <= bump && z == 0.0);
+        let place = Place::with(&mesh.assemble(&Material::STEEL_SI));
+        let edge: Vec<String> = mesh.groups["EDGE"].iter().map(|node| (node + 1).to_string()).collect();
+        assert_eq!(edge.len(), 7);
+        let rest = format!("--rigid-interface edge={} --method guyan", edge.join(","));
+        place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+        let job = supel(&["inspect", &place.text("x.supel"), "--job"]).expect(ExitCode::Done).out;
+        place.write("kept.json", job.as_bytes());
+        let verify = ["verify", &place.text("x.supel"), "--job", &place.text("kept.json"), "--json"];
+        let found: serde_json::Value = serde_json::from_str(&supel(&verify).expect(ExitCode::Done).out).expect("JSON");
+        let checks = found["checks"].as_array().expect("checks").iter();
+        let solves: Vec<_> = checks.filter(|check| check["id"] == "M-10").collect();
+        assert!(!solves.is_empty() && solves.iter().all(|check| check["verdict"] == "pass"), "{bump}: {solves:?}");
     }
 }

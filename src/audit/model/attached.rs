@@ -13,6 +13,7 @@ use faer::{Mat, MatRef, Side};
 
 use super::asked::AskedModes;
 use super::columns::{Columns, Motions, Named};
+use super::interior::Solved;
 use super::solve_errors::Lengths;
 use crate::dense;
 use crate::eigen::{Factored, ModalProblem};
@@ -188,7 +189,7 @@ impl Columns {
             energy_errors: growing.energy,
             inertia_errors: growing.inertia,
             displacement_errors: growing.displacement,
-            residual: free.residual,
+            solved: Solved { residual: free.residual, rounding: 0.0 },
             load_norms: None,
         })
     }

@@ -12,7 +12,7 @@
 use faer::{Mat, MatRef};
 
 use super::asked::AskedModes;
-use super::interior::{Answers, Interior, column_products};
+use super::interior::{Answers, Interior, Solved, column_products};
 use super::solve_errors::{Gains, Lengths, Terms};
 use crate::constraint::left_inverse;
 use crate::dense;
@@ -57,8 +57,8 @@ pub(super) struct Columns {
     pub(super) inertia_errors: Vec<f64>,
     /// The largest displacement at a recovered row that errors of the solves make of each column.
     pub(super) displacement_errors: Vec<f64>,
-    /// The largest error of a static answer relative to itself.
-    pub(super) residual: f64,
+    /// How well static answers solve their equations.
+    pub(super) solved: Solved,
     /// √(f_Iᵀ K_II⁻¹ f_I) of each load of the job: what it makes of an error of unit energy. None without an interior to answer it.
     pub(super) load_norms: Option<Vec<f64>>,
 }
@@ -111,7 +111,7 @@ impl Columns {
             energy_errors: vec![0.0; p + named.len()],
             inertia_errors: vec![0.0; p + named.len()],
             displacement_errors: vec![0.0; p + named.len()],
-            residual: 0.0,
+            solved: Solved::default(),
             load_norms: None,
             probes,
             named,
@@ -122,7 +122,7 @@ impl Columns {
         let statics = follower.follow(columns.probes.as_ref());
         follower.carried = Carried::of(&mut follower, motions, statics.x.as_ref());
         let statics = follower.carrying(statics, columns.probes.as_ref());
-        columns.residual = columns.take(0, statics);
+        columns.solved = columns.take(0, statics);
         columns.relieve(&mut follower, motions.relieved);
         columns.add_turns(&mut follower, motions);
         columns.answer_inertia(&mut follower, n_relief + n_modes);
@@ -154,7 +154,7 @@ impl Columns {
             energy_errors: (0..n_r + n_modes).map(|j| rounding(j) * omega(j)).collect(),
             inertia_errors: (0..n_r + n_modes).map(rounding).collect(),
             displacement_errors: vec![0.0; n_r + n_modes],
-            residual: 0.0,
+            solved: Solved::default(),
             load_norms: None,
         }
     }
@@ -206,14 +206,14 @@ impl Columns {
         self.take(p + n_relief, accelerated);
     }
 
-    /// Puts answers into the interior of columns, with what they lack; gives back how much that is.
-    fn take(&mut self, first: usize, answers: Motion) -> f64 {
+    /// Puts answers into the interior of columns, with what they lack; gives back how well they are solved.
+    fn take(&mut self, first: usize, answers: Motion) -> Solved {
         let (n_i, n) = (answers.x.nrows(), answers.x.ncols());
         self.shapes.as_mut().subrows_mut(0, n_i).subcols_mut(first, n).copy_from(&answers.x);
         self.energy_errors[first..first + n].copy_from_slice(&answers.errors.energy);
         self.inertia_errors[first..first + n].copy_from_slice(&answers.errors.inertia);
         self.displacement_errors[first..first + n].copy_from_slice(&answers.errors.displacement);
-        answers.residual
+        answers.solved
     }
 
     /// What the angle α of a mode adds to its column. With the interface held it is the mode itself: α in inertia, α√λ in energy.
@@ -275,7 +275,7 @@ struct Motion {
     /// n_I × k.
     x: Mat<f64>,
     errors: Lengths,
-    residual: f64,
+    solved: Solved,
 }
 
 /// How the interior follows the interface.
@@ -348,8 +348,12 @@ impl Follower<'_> {
     fn answer(&mut self, loads: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Motion {
         let Answers { x, errors, residual } = self.interior.solve(loads);
         let mut errors = Lengths::of(self.partition, errors.as_ref());
-        errors.add(&self.gains.errors(self.partition, self.interior, Terms { x: x.as_ref(), loads: terms }));
-        Motion { x, errors, residual }
+        let of_rounding = self.gains.errors(self.partition, self.interior, Terms { x: x.as_ref(), loads: terms });
+        errors.add(&of_rounding);
+        let energies = column_products(loads, x.as_ref());
+        let share = |(error, energy): (&f64, &f64)| if *energy > 0.0 { error / energy.sqrt() } else { 0.0 };
+        let rounding = of_rounding.energy.iter().zip(&energies).map(share).fold(0.0, f64::max);
+        Motion { x, errors, solved: Solved { residual, rounding } }
     }
 }
 

@@ -39,6 +39,15 @@ pub(super) struct Interior<'a> {
     pub(super) sigma: f64,
 }
 
+/// How well static answers solve their equations, the worst of them: energies relative to those of the answers, as ratios of lengths.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Solved {
+    /// Of what is left of the load.
+    pub(super) residual: f64,
+    /// Of what rounding of the terms of the equations makes.
+    pub(super) rounding: f64,
+}
+
 /// Solutions of K_II x = f.
 pub(super) struct Answers {
     /// x, n_I × k.

@@ -15,6 +15,7 @@ use supel_runtime::MatrixKind;
 use super::bilinear::{Bilinear, Known};
 use super::columns::{Columns, Named};
 use super::dependence::Dependence;
+use super::interior::Solved;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::partition::Partition;
 use crate::reduction::clear_rounding;
@@ -67,8 +68,8 @@ pub(super) struct Projected {
     pub(super) recovery: Option<Rows>,
     /// (WᵀMU)ᵀ, n_r × q, U the unit motions; of a component without interface that has them.
     pub(super) motions: Option<Mat<f64>>,
-    /// The largest error of a static answer relative to itself.
-    pub(super) residual: f64,
+    /// How well static answers solve their equations.
+    pub(super) solved: Solved,
     /// λ₁, the first elastic eigenvalue.
     pub(super) first: f64,
     /// How far the named columns depend on each other.
@@ -119,7 +120,7 @@ impl Projected {
         let motions =
             unit.filter(|_| is_modal).map(|unit| dense::gram(product(&partition.mass, unit).as_ref(), shapes));
         let dependence = Dependence::of(&partition.mass, shapes.subcols(n_probes, columns.named.len()));
-        let Columns { probes, named, residual, .. } = columns;
+        let Columns { probes, named, solved, .. } = columns;
         Self {
             probes,
             named,
@@ -133,7 +134,7 @@ impl Projected {
             matrices,
             recovery,
             motions,
-            residual,
+            solved,
             first,
             dependence,
         }
