@@ -1,7 +1,7 @@
 //! Looks at a model without a reduction of it: a result of another program held against it, and what it is.
 
 use crate::certification::{
-    self, Band, Claims, Foreign, ForeignSuperelement, Interface, LeftOut, Own, PairFiles, ReducedCertification,
+    self, Band, Claims, Foreign, ForeignSuperelement, Interface, LeftOut, Own, PairFiles, Placed, ReducedCertification,
     ReducedFiles, ResultFiles,
 };
 use crate::error::{Error, Result};
@@ -79,7 +79,7 @@ fn certified_superelement(
     let rows = certification::mode_rows(&partition, &facts);
     let allowance = Allowance::of(resources.allowed(job));
     let given = ForeignSuperelement::read(files, &rows, (job.model.duplicates, &allowance))?;
-    let (given, interface, told) = given.placed(&partition);
+    let Placed { given, interface, notes: told, names } = given.placed(&partition);
     // Where no coordinate is a row of the model nothing tells which are static answers, and half of them may be.
     let n_modes = match interface.coordinates.len() {
         0 => given.n_coordinates().div_ceil(2),
@@ -101,7 +101,7 @@ fn certified_superelement(
             Ok((CertifiedModel::of(&facts, component), free, left_out))
         },
     )?;
-    let mut certification = ReducedCertification::new(&foreign, &interface, free);
+    let mut certification = ReducedCertification::new(&foreign, &interface, (free, names));
     certification.notes.extend(given.basis.notes.iter().chain(&given.notes).cloned().chain(told));
     let source = ReducedSource::of(&given);
     drop(partition);

@@ -4,7 +4,7 @@ use super::claims::Claims;
 use super::independence::{RECOGNISED, RIGID, Standing};
 use super::measured::Measured;
 use super::turned;
-use crate::eigen::{ElasticCount, Interval, ModalProblem, Modes, ShiftInvert};
+use crate::eigen::{ElasticCount, Interval, ModalProblem, Modes, ShiftInvert, bars_with_neighbours};
 use crate::error::{Error, Result};
 use crate::job::Certify;
 use crate::modes::{BoundaryProblem, Certificate, ModeSource, Search, certified};
@@ -71,6 +71,12 @@ impl Completed {
         (from <= 0.0 || lambda >= from * (1.0 - CLUSTER)) && lambda <= to * (1.0 + CLUSTER)
     }
 
+    /// Whether an eigenvalue lies in the band and not only next to it.
+    pub(super) fn holds_strictly(&self, lambda: f64) -> bool {
+        let [from, to] = self.ends;
+        (from <= 0.0 || lambda >= from) && lambda <= to
+    }
+
     /// With the first elastic mode, which tells what is no frequency of rigid-body motion. Neither a result of such motions alone has it,
     /// nor a band that begins above zero: `lowest` finds it.
     ///
@@ -93,14 +99,31 @@ impl Completed {
     }
 
     /// Turns the modes of the result, and the modes that a search has added, into modes of the space that they span together. Next to a
-    /// combination of two modes a search finds the other combination of the two.
+    /// combination of two modes a search finds the other combination of the two. Their error bars know then how far all other modes are.
     ///
     /// # Errors
     /// A dense eigenproblem that does not converge.
     pub(super) fn turned(self, problem: ModalProblem<'_>, operator: &dyn ShiftInvert) -> Result<Self> {
+        let around = self.around();
         let Modes { shapes, searched_to, next, counts, work, .. } = self.modes;
-        let modes = Modes { searched_to, next, counts, work, ..turned::modes_of(problem, operator, shapes)? };
+        let modes = Modes { searched_to, next, counts, work, ..turned::modes_of(problem, operator, shapes, around)? };
         Ok(Self { modes, ..self })
+    }
+
+    /// The modes of the result as they are, their error bars with what the count tells of all others; σ is that of the bars.
+    pub(super) fn with_neighbours(mut self, sigma: f64) -> Self {
+        let around = self.around();
+        bars_with_neighbours(&self.modes.lambda, &mut self.modes.errors, (sigma, around));
+        self
+    }
+
+    /// What all other modes lie beyond. Without a count there may be some right beyond the first and the last.
+    fn around(&self) -> [Option<f64>; 2] {
+        let lambda = &self.modes.lambda;
+        match self.counted {
+            Some([from, to]) => [Some(from).filter(|from| from.is_finite()), Some(to)],
+            None => [lambda.first().copied(), lambda.last().copied()],
+        }
     }
 
     /// The same modes in a band that ends with the highest mode that a pair is, where no end was asked for: what a result states above it

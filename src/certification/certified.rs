@@ -51,7 +51,7 @@ impl Certification {
 /// A count of the modes of the band, rigid-body modes included where the band begins at zero.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct BandCount {
-    /// The frequency below which was counted.
+    /// The frequency up to which was counted.
     pub below_hz: f64,
     /// Eigenvalues counted.
     pub n_counted: usize,
@@ -84,7 +84,7 @@ pub fn certified_pairs(
     let completed = completed((&search, partition), independent.modes, (claims, &measured), band)?;
     let completed = match completed.modes.count() > n_of_result {
         true => problem.with_definite_operator(|operator| completed.turned(problem.modal(), operator))?,
-        false => completed,
+        false => completed.with_neighbours(measured.sigma),
     };
     let completed = completed.with_first_elastic((claims, &standing), || first_elastic(component, job))?;
     let known = AmongKnown::of(problem.modal(), (claims, &measured), &completed)?;
@@ -101,7 +101,7 @@ pub fn certified_pairs(
         notes: checks::notes(component, claims, &judged, &checks),
         checks,
         pairs: judged.pairs,
-        missing: judged.missing,
+        missing: judged.lacking.missing,
     })
 }
 
@@ -124,14 +124,15 @@ pub(super) fn lowest_elastic(component: Component<'_>, job: &ReductionJob) -> Re
     Ok(found.lambda.first().copied())
 }
 
-/// The count at the end of the band, without what lies above it.
+/// The count of the band, without what was found outside of it.
 fn count_of(completed: &Completed, judged: &Judged, hertz: impl Fn(f64) -> f64) -> Option<BandCount> {
     let certificate: &Certificate = completed.certificate.as_ref()?;
-    let n_counted = certificate.n_counted - judged.n_above;
+    let lacking = &judged.lacking;
+    let n_counted = certificate.n_counted - lacking.n_outside;
     Some(BandCount {
-        below_hz: hertz(completed.known_to),
+        below_hz: hertz(completed.known_to.max(lacking.counted_to)),
         n_counted,
-        n_given: n_counted.saturating_sub(judged.missing.len() + judged.n_cut + judged.n_rigid_missing),
+        n_given: n_counted.saturating_sub(lacking.missing.len() + lacking.n_cut + judged.n_rigid_missing),
         doubt: certificate.doubt(),
     })
 }

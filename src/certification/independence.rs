@@ -85,7 +85,7 @@ pub(super) fn independent(
         }
     }
     in_order_of_the_file(&mut standing);
-    let modes = turned::modes_of(problem, operator, factor.orthonormal(elastic.as_ref()))?;
+    let modes = turned::modes_of(problem, operator, factor.orthonormal(elastic.as_ref()), [None, None])?;
     Ok(Independent { standing, modes })
 }
 

@@ -7,11 +7,12 @@
 //! Modes of a cluster are one space: any combination of them is as good.
 
 use super::angles::{AmongKnown, Angle, angle};
-use super::band::{CLUSTER, Completed};
+use super::band::Completed;
 use super::claims::Claims;
 use super::independence::Standing;
+use super::lacking::Lacking;
 use super::measured::Measured;
-use super::pair::{JudgedPair, MissingMode, PairKind};
+use super::pair::{JudgedPair, PairKind};
 use super::rounding::{
     MOST_OF_DIGITS, OfShape, is_rounded_mode, of_digits_in_energy, of_digits_in_frequency, of_digits_of_shape,
 };
@@ -29,11 +30,7 @@ pub(super) const NOT_RIGID: f64 = 1e-4;
 /// The pairs of a result and what it lacks.
 pub(super) struct Judged {
     pub(super) pairs: Vec<JudgedPair>,
-    pub(super) missing: Vec<MissingMode>,
-    /// Modes that were counted above the end of the band.
-    pub(super) n_above: usize,
-    /// Modes of the cluster at the end of the band that the result lacks: it ends inside of it.
-    pub(super) n_cut: usize,
+    pub(super) lacking: Lacking,
     /// Rigid-body modes that the result lacks; none are missing of a band that begins above them.
     pub(super) n_rigid_missing: usize,
     /// λ of the highest mode that a pair is.
@@ -92,23 +89,10 @@ pub(super) fn judged_pairs(
     let angles = (0..claims.count()).map(angle_of).collect();
     let of_others = |claim: usize| Some(known?.of_others(claim, &truth.clusters[kinds[claim].cluster?]));
     let of_others = (0..claims.count()).map(of_others).collect();
-    let (missing, n_cut) = context.missing(&taken);
+    let lacking = Lacking::of(&truth, &taken, (claims, measured), |lambda| context.hertz(lambda));
     let mut is_taken = truth.clusters.iter().zip(&taken).filter(|(_, taken)| !taken.is_empty());
     let highest = is_taken.next_back().map(|(cluster, _)| truth.lambda[cluster.end - 1]);
-    let n_above = truth.n_above();
-    Judged {
-        pairs,
-        missing,
-        n_above,
-        n_cut,
-        n_rigid_missing,
-        highest,
-        angles,
-        residual_bars,
-        of_shapes,
-        is_rounded,
-        of_others,
-    }
+    Judged { pairs, lacking, n_rigid_missing, highest, angles, residual_bars, of_shapes, is_rounded, of_others }
 }
 
 /// What the pairs are put into words with.
@@ -204,30 +188,5 @@ impl Context<'_> {
         let above = known.partition_point(|other| *other <= lambda);
         let below = above.checked_sub(1).map(|below| self.hertz(known[below]));
         [below, known.get(above).map(|above| self.hertz(*above))]
-    }
-
-    /// The modes of the band that no pair has, and how many of them only complete the cluster that the result ends in.
-    fn missing(&self, taken: &[Vec<usize>]) -> (Vec<MissingMode>, usize) {
-        let Truth { lambda, clusters, completed, .. } = self.truth;
-        let (mut missing, mut n_cut) = (Vec::new(), 0);
-        for (cluster, taken) in clusters.iter().zip(taken) {
-            let n_taken = taken.len();
-            let n_lacking = cluster.len().saturating_sub(n_taken);
-            let is_inside = completed.holds(lambda[cluster.start]);
-            if n_lacking == 0 || !is_inside {
-                continue;
-            }
-            let is_last = lambda[cluster.end - 1] >= completed.ends[1] * (1.0 - CLUSTER);
-            if is_last && n_taken > 0 && !completed.is_asked {
-                n_cut += n_lacking;
-                continue;
-            }
-            for mode in cluster.end - n_lacking..cluster.end {
-                let frequency_hz = self.hertz(lambda[mode]);
-                let error_bar_hz = completed.modes.errors[mode].bar_of(frequency_hz);
-                missing.push(MissingMode { frequency_hz, error_bar_hz, of_frequency: [cluster.len(), n_taken] });
-            }
-        }
-        (missing, n_cut)
     }
 }

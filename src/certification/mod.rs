@@ -19,6 +19,7 @@ mod checks;
 mod claims;
 mod independence;
 mod judgement;
+mod lacking;
 mod listing;
 mod measured;
 mod orientation;
@@ -40,6 +41,6 @@ pub use pair::{JudgedPair, MissingMode, Off, PairKind};
 pub use result_files::ResultFiles;
 pub use rows::mode_rows;
 pub use superelement::{
-    Foreign, ForeignSuperelement, FreeComparison, Interface, LeftOut, Own, ReducedCertification, ReducedFiles,
+    Foreign, ForeignSuperelement, FreeComparison, Interface, LeftOut, Own, Placed, ReducedCertification, ReducedFiles,
     ReducedMatrix, compared_free, interface, left_out, preserved,
 };

@@ -51,10 +51,6 @@ pub(super) fn clusters(lambda: &[f64]) -> Vec<Range<usize>> {
 }
 
 impl Truth<'_> {
-    pub(super) fn n_above(&self) -> usize {
-        self.lambda.iter().filter(|lambda| **lambda > self.completed.known_to * (1.0 + CLUSTER)).count()
-    }
-
     /// What all pairs are, and the pairs that each cluster has. Good shapes take their places first.
     pub(super) fn found_of_all(
         &self,

@@ -18,11 +18,16 @@ use crate::sparse::product;
 /// θ up to which shapes stay as they are: the measure of shapes notices a thousandth (M-08).
 const LEAST_ANGLE: f64 = 1e-6;
 
-/// The modes of the space of M-orthonormal shapes, ascending, with what is known of their errors.
+/// The modes of the space of M-orthonormal shapes, ascending, with what is known of their errors; `around` is what all other modes lie beyond.
 ///
 /// # Errors
 /// A dense eigenproblem that does not converge.
-pub(super) fn modes_of(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, mut shapes: Mat<f64>) -> Result<Modes> {
+pub(super) fn modes_of(
+    problem: ModalProblem<'_>,
+    operator: &dyn ShiftInvert,
+    mut shapes: Mat<f64>,
+    around: [Option<f64>; 2],
+) -> Result<Modes> {
     if shapes.ncols() == 0 {
         return Ok(Modes::none(shapes.nrows()));
     }
@@ -44,7 +49,7 @@ pub(super) fn modes_of(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, mu
     let values = order.iter().map(|mode| values[*mode]).collect();
     let pairs = Eigenpairs { values, vectors, next: None, work: EigenWork::default() };
     let eigenproblem = Problem { operator, mass: problem.mass, deflated: problem.deflated };
-    Ok(judged(problem, eigenproblem, pairs, [None, None]).ascending())
+    Ok(judged(problem, eigenproblem, pairs, around).ascending())
 }
 
 /// Modes that are turned against each other, each with those that it reaches through others.

@@ -1,5 +1,7 @@
 //! How well modes are known: Rayleigh quotients, backward errors, error bars.
 
+use std::ops::Range;
+
 use faer::{Mat, MatRef};
 
 use super::problem::Problem;
@@ -39,12 +41,13 @@ impl ModeError {
     }
 }
 
-/// The error bar of a frequency, in its unit, by the relative bar of its λ: half of that, and where the bar is as large as λ and larger, as for
-/// rigid-body motion, no more than the frequency itself below and ω (√(1 + bar) − 1) above.
+/// The error bar of a frequency, in its unit, by the relative bar of its λ: as far as the farther root of λ (1 ± bar), zero for what is
+/// below it. That is the lower one up to bar = 3; to first order it is half the bar.
 pub(crate) fn frequency_bar(bar_of_lambda: f64, frequency: f64) -> f64 {
-    let share = match 0.5 * bar_of_lambda {
-        half if half > 1.0 => half.min(((1.0 + bar_of_lambda).sqrt() - 1.0).max(1.0)),
-        half => half,
+    let share = match bar_of_lambda {
+        bar if bar < 1.0 => bar / (1.0 + (1.0 - bar).sqrt()),
+        bar if bar < 3.0 => 1.0,
+        bar => (1.0 + bar).sqrt() - 1.0,
     };
     share * frequency.abs()
 }
@@ -172,25 +175,52 @@ pub(super) fn add_residual_bars(
     };
     let over = |lambda: f64| if is_inside { 1.0 } else { (lambda - sigma).abs() };
     let squares: Vec<f64> = energies.iter().zip(lambda).map(|(energy, lambda)| energy.abs() / over(*lambda)).collect();
-    let mut first = 0;
-    while first < lambda.len() {
-        let mut end = first + 1;
-        while end < lambda.len() && (lambda[end] - lambda[end - 1]).abs() <= CLUSTER_GAP * (lambda[end] - sigma).abs() {
-            end += 1;
-        }
-        let sum: f64 = squares[first..end].iter().sum();
-        let below = first.checked_sub(1).map(|below| lambda[below]).or(around[0]);
-        let above = lambda.get(end).copied().or(around[1]);
-        for j in first..end {
-            let gap = relative_gap(lambda[j] - sigma, below.map(|l| l - sigma), above.map(|l| l - sigma));
-            let of_theta = sum.sqrt().min(sum / gap);
+    for group in groups(lambda, sigma) {
+        let sum: f64 = squares[group.clone()].iter().sum();
+        for j in group.clone() {
+            let of_theta = sum.sqrt().min(sum / gap_of(lambda, (j, &group), (sigma, around)));
             let resultant: f64 = (0..resultants.nrows()).map(|i| (resultants[(i, j)] / lambda[j]).powi(2)).sum();
             let error = &mut errors[j];
             error.residual_bar = of_theta * (1.0 - sigma / lambda[j]).abs() + resultant;
             error.relative_bar = error.data_bar + error.residual_bar;
         }
-        first = end;
     }
+}
+
+/// Widens the error bars of modes that were judged by themselves, as if nothing were below the first and above the last, to what they are with
+/// the nearest others there; σ is that of [`add_residual_bars`]. Where a bar is Σδ²/γ it grows as γ shrinks, up to Σδ.
+pub(crate) fn bars_with_neighbours(lambda: &[f64], errors: &mut [ModeError], (sigma, around): (f64, [Option<f64>; 2])) {
+    for group in groups(lambda, sigma) {
+        for j in group.clone() {
+            let gap = |around| gap_of(lambda, (j, &group), (sigma, around));
+            let (alone, own) = (gap([None, None]), errors[j].residual_bar);
+            let most = own.max((own * alone * (1.0 - sigma / lambda[j]).abs()).sqrt());
+            let error = &mut errors[j];
+            error.residual_bar = (own * alone / gap(around)).min(most);
+            error.relative_bar = error.data_bar + error.residual_bar;
+        }
+    }
+}
+
+/// Modes with near eigenvalues.
+fn groups(lambda: &[f64], sigma: f64) -> Vec<Range<usize>> {
+    let mut groups = Vec::new();
+    let mut first = 0;
+    for end in 1..=lambda.len() {
+        let is_near = |end: usize| (lambda[end] - lambda[end - 1]).abs() <= CLUSTER_GAP * (lambda[end] - sigma).abs();
+        if end == lambda.len() || !is_near(end) {
+            groups.push(first..end);
+            first = end;
+        }
+    }
+    groups
+}
+
+/// γ: how far θ of a mode is from all others but those of its group, relative to it.
+fn gap_of(lambda: &[f64], (mode, group): (usize, &Range<usize>), (sigma, around): (f64, [Option<f64>; 2])) -> f64 {
+    let below = group.start.checked_sub(1).map(|below| lambda[below]).or(around[0]);
+    let above = lambda.get(group.end).copied().or(around[1]);
+    relative_gap(lambda[mode] - sigma, below.map(|l| l - sigma), above.map(|l| l - sigma))
 }
 
 /// The distance of θ = 1/μ to those of the neighbours, relative to it; the infinite eigenvalues of massless motions are at
@@ -239,13 +269,12 @@ mod tests {
     /// A bar of λ holds λ (1 ± bar), and that of the frequency the roots of both, zero for what is below it.
     #[test]
     fn bars_of_frequencies_hold_the_roots_of_those_of_eigenvalues() {
-        for bar in [1e-12, 1e-3, 2.0, 3.0, 8.0, 1e6, 1e18] {
-            let (above, found) = (2.0 * f64::sqrt(1.0 + bar) - 2.0, frequency_bar(bar, -2.0));
-            let below = if bar < 1.0 { 2.0 - 2.0 * f64::sqrt(1.0 - bar) } else { 2.0 };
-            // Half a bar is the root to first order: the second is an eighth of its square. The roots themselves are rounded.
-            let least = above.max(below) * (1.0 - bar.min(1e-3)) - 8.0 * f64::EPSILON;
-            assert!(found >= least && found <= bar, "{bar}: {found} {above} {below}");
-            assert!(bar < 2.0 || found == above.max(2.0), "{bar}: {found}");
+        for bar in [1e-12, 1e-3, 0.028, 0.5, 0.999, 1.0, 2.0, 3.0, 8.0, 1e6, 1e18] {
+            let above = 2.0 * f64::sqrt(1.0 + bar) - 2.0;
+            let below = 2.0 - 2.0 * f64::sqrt((1.0 - bar).max(0.0));
+            let (farther, found) = (above.max(below), frequency_bar(bar, -2.0));
+            // The roots themselves are rounded, twice each, and so is their distance from two.
+            assert!((found - farther).abs() <= 8.0 * f64::EPSILON * (1.0 + farther), "{bar}: {found} {farther}");
         }
         assert_eq!((frequency_bar(f64::INFINITY, 1.0), frequency_bar(0.0, 1.0)), (f64::INFINITY, 0.0));
         assert!(frequency_bar(f64::NAN, 1.0).is_nan());

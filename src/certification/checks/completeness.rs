@@ -13,12 +13,14 @@ impl Subject<'_> {
     /// M-06.
     pub(super) fn missing(&self) -> Option<Check> {
         let certificate = self.completed.certificate.as_ref();
-        let missing = &self.judged.missing;
+        let missing = &self.judged.lacking.missing;
         let n_missing = missing.len() + self.completed.n_not_sought;
         let listed: Vec<String> =
             missing.iter().take(LISTED).map(|mode| format!("{} Hz", quantity(mode.frequency_hz, 6))).collect();
         let mut said = match (listed.len(), certificate) {
-            (0, Some(certificate)) => format!("counted {}, all there", certificate.n_counted - self.judged.n_above),
+            (0, Some(certificate)) => {
+                format!("counted {}, all there", certificate.n_counted - self.judged.lacking.n_outside)
+            }
             (0, None) => String::new(),
             (n, _) if n < missing.len() => format!("{} and {} more", listed.join(", "), missing.len() - n),
             _ => listed.join(", "),

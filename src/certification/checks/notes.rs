@@ -16,11 +16,11 @@ pub(in crate::certification) fn notes(
     checks: &[Check],
 ) -> Vec<String> {
     let mut notes = Vec::from_iter(few_digits(claims, checks));
-    if judged.n_cut > 0 {
+    if judged.lacking.n_cut > 0 {
         notes.push(format!(
             "the result ends inside a group of modes of one frequency: {} of it more in the model; ask for {} more",
-            counted(judged.n_cut, "mode is", "modes are"),
-            counted(judged.n_cut, "mode", "modes"),
+            counted(judged.lacking.n_cut, "mode is", "modes are"),
+            counted(judged.lacking.n_cut, "mode", "modes"),
         ));
     }
     if component.rigid.n_massless > 0 {

@@ -49,10 +49,10 @@ pub struct ReducedCertification {
 
 impl ReducedCertification {
     /// What is known of a superelement before its interface is looked at.
-    pub fn new(foreign: &Foreign, interface: &Interface, free: FreeComparison) -> Self {
+    pub fn new(foreign: &Foreign, interface: &Interface, (free, names): (FreeComparison, Option<Check>)) -> Self {
         let notes = notes(interface);
         let (n_coordinates, n_interface) = (foreign.n_reduced(), interface.coordinates.len());
-        let mut checks = free.checks.clone();
+        let mut checks: Vec<Check> = free.checks.iter().cloned().chain(names).collect();
         checks.sort_by_key(place);
         Self { n_coordinates, n_interface, checks, free, preservation: None, notes }
     }

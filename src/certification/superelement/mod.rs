@@ -29,3 +29,4 @@ pub use interface::{Interface, interface};
 pub use judged::{FreeComparison, ReducedCertification, compared_free};
 pub use left_out::{LeftOut, Own, left_out};
 pub use preserved::preserved;
+pub use turned_nodes::Placed;

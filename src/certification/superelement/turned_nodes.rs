@@ -9,12 +9,28 @@
 //! the rows of the files, and what has all three directions of a node is then turned with the rows. A node of which fewer are kept has no
 //! direction of the model as a coordinate: those it has stay as they are, and are no part of the interface.
 
+use std::collections::HashSet;
+
 use faer::Mat;
 
 use super::files::{ForeignSuperelement, ReducedMatrix};
 use super::interface::{Interface, interface};
+use crate::dofs::Dof;
 use crate::number::counted;
 use crate::partition::Partition;
+use crate::verification::check::Check;
+
+/// A superelement whose coordinates are found among the rows of a model.
+pub struct Placed {
+    /// The superelement along the axes of the model, its matrices in the order of its basis.
+    pub given: ForeignSuperelement,
+    /// The rows of the model that it keeps.
+    pub interface: Interface,
+    /// What is to be known of both, one sentence each.
+    pub notes: Vec<String>,
+    /// C-13, where its matrices name their rows.
+    pub names: Option<Check>,
+}
 
 /// Three coordinates of a node, by their numbers from zero, and the axes that they are along.
 struct Block {
@@ -24,14 +40,15 @@ struct Block {
 }
 
 impl ForeignSuperelement {
-    /// The superelement along the axes of the model, its matrices in the order of its basis; the rows of the model that it keeps; and what is
-    /// to be known of both.
+    /// The superelement along the axes of the model, its matrices in the order of its basis.
     #[must_use]
-    pub fn placed(self, partition: &Partition) -> (Self, Interface, Vec<String>) {
+    pub fn placed(self, partition: &Partition) -> Placed {
         let along_files = interface(partition, &self);
-        let (given, reordered) = self.in_order_of_basis(&along_files);
+        let dofs: HashSet<Dof> = partition.dofs.iter().filter_map(|reduced| reduced.dof).collect();
+        let (given, reordered) = self.in_order_of_basis(&along_files, |dof| dofs.contains(dof));
+        let (reordered, names) = reordered.unzip();
         let Some(turning) = given.basis.turning.clone() else {
-            return (given, along_files, reordered.into_iter().collect());
+            return Placed { given, interface: along_files, notes: reordered.into_iter().collect(), names };
         };
         let rows = &partition.model.rows;
         let of_row: Vec<(usize, usize)> =
@@ -49,7 +66,8 @@ impl ForeignSuperelement {
         }
         let given = given.turned(&blocks);
         let interface = interface(partition, &given);
-        (given, interface, reordered.into_iter().chain(notes(3 * blocks.len(), n_apart)).collect())
+        let notes = reordered.into_iter().chain(notes(3 * blocks.len(), n_apart)).collect();
+        Placed { given, interface, notes, names }
     }
 
     fn turned(mut self, blocks: &[Block]) -> Self {

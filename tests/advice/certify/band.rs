@@ -119,3 +119,28 @@ fn a_count_says_between_which_frequencies_it_counts() {
     let text = said("");
     assert!(text.contains("a Sturm count finds 17 modes up to"), "{text}");
 }
+
+/// The count is taken off the ends of a band, and modes that it finds there are none of the band.
+#[test]
+fn modes_next_to_a_band_are_not_counted_in_it() {
+    let all = lowest(&bar(), 20);
+    let to = 0.5 * (all.hertz[13] + all.hertz[14]);
+    let counts = |pairs: &Pairs, from: f64, code: ExitCode| {
+        let found = document(&place_of(&bar(), pairs), &format!("--band {from},{to}"), code);
+        ["n_counted", "n_given"].map(|key| found["count"][key].as_u64().expect("a number"))
+    };
+    let one = Pairs { hertz: vec![all.hertz[12]], shapes: vec![all.shapes[12].clone()] };
+    let below = Pairs { hertz: all.hertz[..8].to_vec(), shapes: all.shapes[..8].to_vec() };
+    for above in [1.0001, 1.001, 1.0018] {
+        let from = all.hertz[9] * above;
+        assert_eq!(counts(&all, from, ExitCode::Done), [4, 4], "{above}");
+        assert_eq!(counts(&all.clone().without(8), from, ExitCode::Done), [4, 4], "{above}");
+        assert_eq!(counts(&one, from, ExitCode::CheckFailed), [4, 1], "{above}");
+        assert_eq!(counts(&below, from, ExitCode::CheckFailed), [4, 0], "{above}");
+    }
+    // A pair that lies below the band by less than the modes of one frequency lie apart is missing to nobody.
+    assert_eq!(counts(&all.clone().from(10), all.hertz[9] * (1.0 + 2e-6), ExitCode::Done), [4, 4]);
+    // One that the result has half of there is looked at as a whole.
+    let found = counts(&all.clone().without(8), all.hertz[9] * (1.0 + 2e-6), ExitCode::CheckFailed);
+    assert_eq!(found, [6, 5]);
+}

@@ -79,3 +79,19 @@ fn a_point_mass_without_stiffness_is_certified() {
     let found = document(&place, "", ExitCode::Done);
     assert_eq!((verdict(&found, "M-01"), of_kind(&found, "rigid-body").len()), (Some("pass"), 6), "{found}");
 }
+
+/// Any combinations of rigid-body motions are rigid-body modes: translations, and turns about an axis that is far from the centre of mass.
+#[test]
+fn motions_that_are_not_orthogonal_are_modes_all_the_same() {
+    let mut pairs = lowest(&bar(), 14);
+    let combined: Vec<f64> = pairs.shapes[0].iter().zip(&pairs.shapes[5]).map(|(a, b)| 2.0 * a + b).collect();
+    pairs.shapes[5] = combined;
+    let found = document(&place_of(&bar(), &pairs), "", ExitCode::Done);
+    assert_eq!((verdict(&found, "M-03"), verdict(&found, "C-04")), (Some("warn"), Some("pass")), "{found}");
+    assert!(found["checks"].to_string().contains("rigid-body modes all the same"), "{found}");
+    // What two modes of different frequencies have of each other is none of that.
+    pairs = lowest(&bar(), 14);
+    pairs.shapes[8] = pairs.shapes[8].iter().zip(&pairs.shapes[11]).map(|(a, b)| a + 0.2 * b).collect();
+    let found = document(&place_of(&bar(), &pairs), "", ExitCode::CheckFailed);
+    assert_eq!(verdict(&found, "M-03"), Some("fail"), "{found}");
+}
