@@ -203,9 +203,10 @@ impl<'a> Extended<'a> {
         self.triangle = None;
         let partition = self.evidence.partition;
         let (n_i, n) = (partition.n_internal, partition.n_dofs());
-        let mut directions = self.compressed(residual)?;
+        let loads = self.compressed(residual)?;
+        let mut directions = loads.clone();
         self.factor.solve_in_place(directions.as_mut());
-        let fresh = self.independent(directions)?;
+        let fresh = self.independent(directions, loads)?;
         if fresh.ncols() == 0 {
             return Ok(false);
         }
@@ -250,12 +251,12 @@ impl<'a> Extended<'a> {
     /// factor; dependent ones are left out.
     ///
     /// In M_II alone columns would be told apart that differ in the little mass of a motion which has all their energy, as of rotations that
-    /// nothing but a drilling spring holds: with stiffness there is nothing to tell them by.
-    fn independent(&self, mut block: Mat<f64>) -> Result<Mat<f64>> {
+    /// nothing but a drilling spring holds: with stiffness there is nothing to tell them by. `loads` are what the columns answer to, K_II times
+    /// them.
+    fn independent(&self, mut block: Mat<f64>, loads: Mat<f64>) -> Result<Mat<f64>> {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
         let (pencil, alpha) = (self.evidence.partition.internal(), shift(self.evidence)?);
-        let in_norm = |block: &Mat<f64>| {
-            let mut image = product(pencil.stiffness, block.as_ref());
+        let in_norm = |block: &Mat<f64>, mut image: Mat<f64>| {
             image *= Scale(1.0 / alpha);
             image += product(pencil.mass, block.as_ref());
             image
@@ -267,8 +268,8 @@ impl<'a> Extended<'a> {
         });
         let own = own.llt(Side::Lower).map_err(|_| Error::DenseEigen { n: n_dynamic })?;
         let mut dependent = vec![false; block.ncols()];
+        let mut image = in_norm(&block, loads);
         for pass in 0..2 {
-            let mut image = in_norm(&block);
             for j in 0..block.ncols() {
                 let length =
                     dense::dot(dense::column(block.as_ref(), j), dense::column(image.as_ref(), j)).max(0.0).sqrt();
@@ -279,7 +280,7 @@ impl<'a> Extended<'a> {
             }
             let coefficients = own.solve(dense::gram(earlier, image.as_ref()));
             dense::add_product(block.as_mut(), -1.0, earlier, coefficients.as_ref());
-            image = in_norm(&block);
+            image = in_norm(&block, product(pencil.stiffness, block.as_ref()));
             let least = if pass == 0 { INDEPENDENT } else { 0.0 };
             mass_qr(&mut block, &mut image, least, &mut dependent);
         }
