@@ -8,7 +8,7 @@ use supel_runtime::{Coordinate, Flag, Superelement};
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::eigen::massless::lifted;
-use crate::eigen::{ByInertia, eigenvalue_beyond, elastic_scale, relief_scale};
+use crate::eigen::{ByInertia, bar_of_lambda, eigenvalue_beyond, elastic_scale, relief_scale};
 use crate::error::Result;
 use crate::job::{Boundary, Job, MassOf, Method};
 use crate::plan::Plan;
@@ -350,9 +350,8 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
     // Modes that the interface spans are no coordinates and have bars all the same.
     let known = superelement.metadata().named_columns().filter_map(|coordinate| {
         let ((_, frequency_hz), bar) = (coordinate.mode()?, coordinate.error_bar_hz()?);
-        // The bar of the square of a frequency is twice that of the frequency.
         let omega = frequency_hz * std::f64::consts::TAU;
-        let known = Known { lambda: omega * omega, relative_bar: 2.0 * bar / frequency_hz };
+        let known = Known { lambda: omega * omega, relative_bar: bar_of_lambda(bar, frequency_hz) };
         (bar <= limits::UNKNOWN * frequency_hz).then_some(known)
     });
     limits::noise(known, first)

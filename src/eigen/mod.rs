@@ -47,7 +47,7 @@ pub use orthogonalisation::mass_qr;
 pub use problem::{CLUSTER_GAP, EigenWork, Eigenpairs, Interval, Problem, Wanted};
 pub(crate) use problem::{are_clustered, is_above};
 pub use quality::{MassOrthogonality, ModeError, NOTICED_BAR, mass_orthogonality};
-pub(crate) use quality::{bars_with_neighbours, frequency_bar, rayleigh_quotients};
+pub(crate) use quality::{bar_of_lambda, bars_with_neighbours, frequency_bar, rayleigh_quotients};
 pub(crate) use ritz::RESIDUAL_FLOOR;
 pub(crate) use shifted::first_shift;
 pub use shifted::{Shifted, shifted};

@@ -52,6 +52,14 @@ pub(crate) fn frequency_bar(bar_of_lambda: f64, frequency: f64) -> f64 {
     share * frequency.abs()
 }
 
+/// The relative bar of λ that an error bar of a frequency stands for: the inverse of [`frequency_bar`], and the largest where it has several.
+pub(crate) fn bar_of_lambda(bar: f64, frequency: f64) -> f64 {
+    match (bar / frequency).abs() {
+        share if share < 1.0 => share * (2.0 - share),
+        share => share * (2.0 + share),
+    }
+}
+
 /// Relative error bar of a frequency that is worth a look: what a modal test resolves, the limit of M-09.
 pub const NOTICED_BAR: f64 = 1e-4;
 
@@ -264,7 +272,7 @@ pub fn mass_orthogonality<'a>(mass: impl Into<Leading<'a>>, shapes: MatRef<'_, f
 
 #[cfg(test)]
 mod tests {
-    use super::frequency_bar;
+    use super::{bar_of_lambda, frequency_bar};
 
     /// A bar of λ holds λ (1 ± bar), and that of the frequency the roots of both, zero for what is below it.
     #[test]
@@ -275,6 +283,9 @@ mod tests {
             let (farther, found) = (above.max(below), frequency_bar(bar, -2.0));
             // The roots themselves are rounded, twice each, and so is their distance from two.
             assert!((found - farther).abs() <= 8.0 * f64::EPSILON * (1.0 + farther), "{bar}: {found} {farther}");
+            // Between one and three all bars reach to zero. Elsewhere roundings of the share grow by the slope of its square.
+            let (back, expected) = (bar_of_lambda(found, -2.0), if (1.0..3.0).contains(&bar) { 3.0 } else { bar });
+            assert!((back - expected).abs() <= 16.0 * f64::EPSILON * (1.0 + expected), "{bar}: {back}");
         }
         assert_eq!((frequency_bar(f64::INFINITY, 1.0), frequency_bar(0.0, 1.0)), (f64::INFINITY, 0.0));
         assert!(frequency_bar(f64::NAN, 1.0).is_nan());

@@ -6,7 +6,7 @@ use super::asked::AskedModes;
 use super::entries::FAR;
 use super::scaled::Scaled;
 use crate::dense::{self, NOISE_FACTOR};
-use crate::eigen::{ModeError, Modes, RESIDUAL_FLOOR, mean_is_away, taken_for_one};
+use crate::eigen::{ModeError, Modes, RESIDUAL_FLOOR, frequency_bar, mean_is_away, taken_for_one};
 use crate::sparse::Precision;
 use crate::verification::check::{Check, Limits};
 use crate::verification::limits::LARGEST_EXCUSE;
@@ -70,7 +70,12 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
         // A bar is what roundings make of an energy over λ, and λ may be known to a few digits only: energies are compared.
         let same_lambda = stated / asked.lambda()[mode];
         let found = match error_bar_hz {
-            Some(bar) => outside(2.0 * bar / frequency_hz * same_lambda, of_data[mode], NOISE_FACTOR * of_residual),
+            Some(bar) => {
+                let [low, high] = of_data[mode];
+                let of_lambda = [low, high + NOISE_FACTOR * of_residual];
+                // Frequencies have bars of their own, which reach to the farther root.
+                outside(bar / frequency_hz, of_lambda.map(|bar| frequency_bar(bar / same_lambda, 1.0)))
+            }
             None if error.relative_bar.is_finite() => f64::INFINITY,
             None => 0.0,
         };
@@ -82,7 +87,7 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
     Check {
         id: "M-09",
         name: "error bars are those of the full model",
-        equation: "max distance of (2 bar/f)(f_stated/f)² from [data, data + residual], relative to the nearer end",
+        equation: "max distance of bar/f from 1 − √(1 − β), β from that of the data to data + residual, relative to the nearer end",
         value,
         limits,
         fail_above: (FAR * limits.value()).min(NO_BAR),
@@ -111,9 +116,8 @@ fn turned_by_products(modes: &Modes) -> Vec<f64> {
     modes.errors.iter().map(|error| turned * (largest / error.cancellation).sqrt()).collect()
 }
 
-/// How far a relative error bar lies outside of what it can be: the share of the data, and up to that of the residual more.
-fn outside(bar: f64, of_data: [f64; 2], of_residual: f64) -> f64 {
-    let [low, high] = [of_data[0], of_data[1] + of_residual];
+/// How far a relative error bar lies outside of what it can be.
+fn outside(bar: f64, [low, high]: [f64; 2]) -> f64 {
     if bar < low {
         (low - bar) / low
     } else if bar > high {

@@ -197,12 +197,12 @@ impl<'a> Extended<'a> {
         Residual { parts, size }
     }
 
-    /// Adds what the factor of K_II answers to a residual; false where nothing new is left.
+    /// Adds what the factor of K_II answers to a residual; false where nothing new is left, or nothing but rounding.
     fn grow(&mut self, residual: &Residual) -> Result<bool> {
         self.steps += 1;
         self.triangle = None;
         let partition = self.evidence.partition;
-        let (n_i, n) = (partition.n_internal, partition.n_dofs());
+        let (n_i, n, n_before) = (partition.n_internal, partition.n_dofs(), self.basis.ncols());
         let loads = self.compressed(residual)?;
         let mut directions = loads.clone();
         self.factor.solve_in_place(directions.as_mut());
@@ -228,8 +228,26 @@ impl<'a> Extended<'a> {
             dense::symmetrise(projected);
             *images = dense::side_by_side(images.as_ref(), image.as_ref());
         }
-        self.spectral = Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), shift(self.evidence)?)?;
+        match Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), shift(self.evidence)?) {
+            Ok(spectral) => self.spectral = spectral,
+            // The new columns are rounding: the residual stays what it is, and is stated.
+            Err(Error::DenseEigen { .. }) => {
+                self.truncate(n_before);
+                return Ok(false);
+            }
+            Err(error) => return Err(error),
+        }
         Ok(true)
+    }
+
+    /// Leaves the first columns of the basis alone.
+    fn truncate(&mut self, r: usize) {
+        for columns in [&mut self.basis, &mut self.forces, &mut self.momenta] {
+            *columns = columns.subcols(0, r).to_owned();
+        }
+        for projected in [&mut self.stiffness, &mut self.mass] {
+            *projected = projected.submatrix(0, 0, r, r).to_owned();
+        }
     }
 
     /// The internal rows of a residual in as few columns as hold all of it.
@@ -256,7 +274,8 @@ impl<'a> Extended<'a> {
     fn independent(&self, mut block: Mat<f64>, loads: Mat<f64>) -> Result<Mat<f64>> {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
         let (pencil, alpha) = (self.evidence.partition.internal(), shift(self.evidence)?);
-        let in_norm = |block: &Mat<f64>, mut image: Mat<f64>| {
+        let in_norm = |block: &Mat<f64>, forces: Mat<f64>| {
+            let mut image = forces;
             image *= Scale(1.0 / alpha);
             image += product(pencil.mass, block.as_ref());
             image
@@ -268,6 +287,7 @@ impl<'a> Extended<'a> {
         });
         let own = own.llt(Side::Lower).map_err(|_| Error::DenseEigen { n: n_dynamic })?;
         let mut dependent = vec![false; block.ncols()];
+        let fresh = |block: &Mat<f64>| in_norm(block, product(pencil.stiffness, block.as_ref()));
         let mut image = in_norm(&block, loads);
         for pass in 0..2 {
             for j in 0..block.ncols() {
@@ -280,9 +300,13 @@ impl<'a> Extended<'a> {
             }
             let coefficients = own.solve(dense::gram(earlier, image.as_ref()));
             dense::add_product(block.as_mut(), -1.0, earlier, coefficients.as_ref());
-            image = in_norm(&block, product(pencil.stiffness, block.as_ref()));
+            image = fresh(&block);
             let least = if pass == 0 { INDEPENDENT } else { 0.0 };
             mass_qr(&mut block, &mut image, least, &mut dependent);
+            if pass == 0 {
+                // Of a column of which little was left its image is rounding of the terms of what was taken out.
+                image = fresh(&block);
+            }
         }
         let kept: Vec<usize> = (0..block.ncols()).filter(|j| !dependent[*j]).collect();
         Ok(dense::columns(block.as_ref(), &kept))
