@@ -6,7 +6,7 @@ use std::path::Path;
 
 use faer::Mat;
 use serde::Deserialize;
-use supel_runtime::{Coordinate, Flag, InterfaceNode, Matrix, Metadata, Method, Superelement};
+use supel_runtime::{Coordinate, Flag, InterfaceNode, Metadata, Method, Superelement};
 
 use super::assumed::assumed;
 use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
@@ -42,10 +42,12 @@ pub fn job_of(superelement: &Superelement, path: &Path) -> Result<(String, Optio
 pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<JobText, &'static str>> {
     let labels = superelement.metadata().interface_labels();
     let condensed = condensed_stiffness(superelement)?;
-    let digits = match no_job(superelement, &condensed) {
-        Some(why) => return Ok(Err(why)),
-        None => digits_of(superelement, &condensed.stiffness)?,
-    };
+    if let Some(why) = no_job(superelement, &condensed) {
+        return Ok(Err(why));
+    }
+    let tensors = superelement.tensors();
+    let matrices = [&condensed.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    let digits = digits(matrices.each_ref().map(Mat::as_ref), &places(superelement))?;
     if digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
         return Ok(Err("lets rigid-body motion pass to fewer than four digits of its stiffness"));
     }
@@ -66,11 +68,11 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
         map: if has_map { Map::Nodes } else { Map::Rows },
         units: superelement.metadata().units.clone(),
         held_rotations: if has_map {
-            with_held_alone((superelement, &assumes), &condensed.stiffness)?
+            with_held_alone((superelement, &assumes), &matrices)?
         } else {
             held_rotations(superelement)
         },
-        mechanisms: match gives_way_inside(superelement, &condensed.stiffness)? {
+        mechanisms: match gives_way_inside(superelement, &matrices)? {
             true => Mechanisms::Accept,
             false => mechanisms(superelement),
         },
@@ -108,12 +110,6 @@ fn no_job(superelement: &Superelement, condensed: &Condensed) -> Option<&'static
     reasons.into_iter().find_map(|(is_so, why)| is_so.then_some(why))
 }
 
-fn digits_of(superelement: &Superelement, stiffness: &Matrix) -> Result<Option<i64>> {
-    let tensors = superelement.tensors();
-    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
-    digits([&k, &m, &u].map(Mat::as_ref), &places(superelement))
-}
-
 /// Why a job does without the map and the nodes that there are.
 fn without_nodes(superelement: &Superelement) -> Result<Option<&'static str>> {
     if superelement.has_rigid_amplitudes() {
@@ -137,9 +133,10 @@ pub(super) fn held_rotations(superelement: &Superelement) -> Vec<String> {
 }
 
 /// Rotations that supports hold alone, by the job and by the motions of the superelement: its job may hold them as dofs that are at rest.
-fn with_held_alone((superelement, assumes): (&Superelement, &AssumesJob), stiffness: &Matrix) -> Result<Vec<String>> {
-    let tensors = superelement.tensors();
-    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+fn with_held_alone(
+    (superelement, assumes): (&Superelement, &AssumesJob),
+    [k, m, u]: &[Mat<f64>; 3],
+) -> Result<Vec<String>> {
     let rows = (&*places(superelement), &*masses(superelement));
     let found = rotations_held_alone(rows, [k.as_ref(), m.as_ref()], (u.as_ref(), assumes))?;
     let all: BTreeSet<String> =
@@ -149,9 +146,7 @@ fn with_held_alone((superelement, assumes): (&Superelement, &AssumesJob), stiffn
 
 /// Whether the superelement has motions without energy that its nodes do not explain: the reduction that made it found them, and the digits of
 /// its matrices are those of all of it.
-fn gives_way_inside(superelement: &Superelement, stiffness: &Matrix) -> Result<bool> {
-    let tensors = superelement.tensors();
-    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+fn gives_way_inside(superelement: &Superelement, [k, m, u]: &[Mat<f64>; 3]) -> Result<bool> {
     gives_way((&places(superelement), &masses(superelement)), [k.as_ref(), m.as_ref()], u.as_ref())
 }
 

@@ -25,7 +25,7 @@ use crate::cache::Cache;
 use crate::dofs::{DofMap, FileRows, Nodes, RoundedAxes, RowNames};
 use crate::error::{Error, Result};
 use crate::input::{ConstraintRows, Input, MatrixInput};
-use crate::sparse::{Leading, Precision, Rounding, SparseMatrix, diagonal};
+use crate::sparse::{Leading, Precision, Rounding, SparseMatrix, couples, diagonal, is_empty_row};
 
 pub use added_mass::add_masses;
 pub(crate) use added_mass::inertia_tensor;
@@ -331,12 +331,6 @@ fn check_diagonals(
     Ok(())
 }
 
-/// Whether a matrix couples a row with one of a kind.
-fn couples(matrix: &SparseMatrix, row: usize, is_of_kind: impl Fn(usize) -> bool) -> bool {
-    let entries = matrix.outer_view(row);
-    entries.iter().flat_map(|view| view.iter()).any(|(other, value)| *value != 0.0 && is_of_kind(other))
-}
-
 /// Refuses a dof without stiffness of its own but a negative one. A preloaded component may have such dofs where the job holds them or a
 /// patch carries them; where neither does, the factor counts the negative eigenvalues that they make.
 fn refuse_negative_diagonals(stiffness: &SparseMatrix, names: RowNames<'_>) -> Result<()> {
@@ -371,8 +365,4 @@ fn clear_negative_rounding(mass: &mut SparseMatrix) {
             *value = 0.0;
         }
     }
-}
-
-fn is_empty_row(matrix: &SparseMatrix, row: usize) -> bool {
-    matrix.outer_view(row).is_none_or(|view| view.data().iter().all(|value| *value == 0.0))
 }

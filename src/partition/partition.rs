@@ -10,9 +10,7 @@ use crate::factor::Analysis;
 use crate::job::{InterfaceJob, SceneJob};
 use crate::model::{Bodies, CoordinateFit, Finding, Model, ModelFacts, Scaling, Site};
 use crate::plan::Parting;
-use crate::sparse::Pencil;
-use crate::sparse::Precision;
-use crate::sparse::{Leading, SparseMatrix};
+use crate::sparse::{Leading, Pencil, Precision, SparseMatrix, couples, is_empty_row};
 
 use super::earlier::Earlier;
 use super::expansion::Expansion;
@@ -345,7 +343,7 @@ fn refuse_loose(
     }
     let is_row = |dof: &ReducedDof| matches!(dof.origin, DofOrigin::Row(_));
     let dofs = transformation.dofs.iter().enumerate().filter(|(_, dof)| is_row(dof));
-    let mut loose = dofs.filter(|(dof, _)| matrices.iter().all(|matrix| is_bare(matrix, *dof)));
+    let mut loose = dofs.filter(|(dof, _)| matrices.iter().all(|matrix| is_empty_row(matrix, *dof)));
     match loose.next() {
         None => Ok(()),
         Some((_, first)) => Err(Error::ConstraintLoose { n_dofs: 1 + loose.count(), dof: first.name(names, rows) }),
@@ -356,14 +354,14 @@ fn refuse_loose(
 fn n_bodies(stiffness: &SparseMatrix, transformation: &Transformation) -> usize {
     let dofs = &transformation.dofs;
     let nodes: Vec<u32> = dofs.iter().map(|dof| dof.node).collect();
-    let has_map = dofs.iter().any(|dof| dof.dof.is_some());
-    let is_scalar = |dof: &ReducedDof| has_map && dof.dof.is_none() && matches!(dof.origin, DofOrigin::Row(_));
-    Bodies::count_among(stiffness, &nodes, |dof| !is_scalar(&dofs[dof]))
+    let is_scalar = scalars(dofs);
+    Bodies::count_among(stiffness, &nodes, |dof| !is_scalar(dof))
 }
 
-/// Whether a row of a matrix has no entry other than zero.
-fn is_bare(matrix: &SparseMatrix, dof: usize) -> bool {
-    matrix.outer_view(dof).is_none_or(|row| row.data().iter().all(|value| *value == 0.0))
+/// Tells the dofs that are rows of no node where a map knows the nodes: amplitudes.
+fn scalars(dofs: &[ReducedDof]) -> impl Fn(usize) -> bool {
+    let has_map = dofs.iter().any(|dof| dof.dof.is_some());
+    move |dof| has_map && dofs[dof].dof.is_none() && matches!(dofs[dof].origin, DofOrigin::Row(_))
 }
 
 /// What is to be said of the masses and the stiffness of interface dofs, behind what was found of their origins.
@@ -385,14 +383,10 @@ fn hanging_dofs(
     partition: &Transformation,
     (names, rows): (NodeNames<'_>, &FileRows),
 ) -> Option<Finding> {
-    let has_map = partition.dofs.iter().any(|dof| dof.dof.is_some());
-    let is_amplitude = |dof: &ReducedDof| has_map && dof.dof.is_none() && matches!(dof.origin, DofOrigin::Row(_));
-    let rides = |dof: usize| {
-        let entries = mass.outer_view(dof);
-        let mut coupled = entries.iter().flat_map(|view| view.iter()).filter(|(_, value)| **value != 0.0);
-        coupled.any(|(other, _)| is_amplitude(&partition.dofs[other]) && !is_bare(stiffness, other))
-    };
-    let hanging = (partition.n_internal()..partition.dofs.len()).filter(|dof| is_bare(stiffness, *dof) && !rides(*dof));
+    let is_scalar = scalars(&partition.dofs);
+    let rides = |dof: usize| couples(mass, dof, |other| is_scalar(other) && !is_empty_row(stiffness, other));
+    let hanging =
+        (partition.n_internal()..partition.dofs.len()).filter(|dof| is_empty_row(stiffness, *dof) && !rides(*dof));
     let hanging: Vec<usize> = hanging.collect();
     let first = *hanging.first()?;
     Some(Finding::HangingInterface { dof: partition.dofs[first].name(names, rows), n_dofs: hanging.len() })

@@ -15,6 +15,7 @@ mod pencil;
 mod principal;
 mod product;
 mod rounding;
+mod rows;
 mod triangle;
 mod turning;
 
@@ -28,6 +29,7 @@ pub(crate) use principal::principal;
 pub use product::{absolute_product, multiply, panels, product, product_and_terms};
 pub(crate) use rounding::ends;
 pub use rounding::{Differing, HalfUnits, Rounding};
+pub(crate) use rows::{couples, is_empty_row};
 pub(crate) use triangle::Mirrored;
 pub use triangle::Triangle;
 pub use turning::{Turned, TurnedRoundings, Turning};

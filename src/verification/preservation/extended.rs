@@ -47,6 +47,8 @@ pub(super) struct Extended<'a> {
     evidence: &'a Evidence<'a>,
     factor: &'a dyn SolveOperator,
     eta: f64,
+    /// The shift of spectral forms.
+    alpha: f64,
     /// Ψ_e, KΨ_e and MΨ_e.
     basis: Mat<f64>,
     forces: Mat<f64>,
@@ -87,12 +89,14 @@ impl<'a> Extended<'a> {
             projected
         };
         let (stiffness, mass) = (project(&forces), project(&momenta));
-        let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), shift(evidence)?)?;
+        let alpha = shift(evidence)?;
+        let spectral = Spectral::of(stiffness.as_ref(), mass.as_ref(), alpha)?;
         let scale = Equilibrated::of(partition.pencil()).scale;
         Ok(Self {
             evidence,
             factor,
             eta,
+            alpha,
             basis,
             forces,
             momenta,
@@ -228,7 +232,7 @@ impl<'a> Extended<'a> {
             dense::symmetrise(projected);
             *images = dense::side_by_side(images.as_ref(), image.as_ref());
         }
-        match Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), shift(self.evidence)?) {
+        match Spectral::of(self.stiffness.as_ref(), self.mass.as_ref(), self.alpha) {
             Ok(spectral) => self.spectral = spectral,
             // The new columns are rounding: the residual stays what it is, and is stated.
             Err(Error::DenseEigen { .. }) => {
@@ -273,7 +277,7 @@ impl<'a> Extended<'a> {
     /// them.
     fn independent(&self, mut block: Mat<f64>, loads: Mat<f64>) -> Result<Mat<f64>> {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
-        let (pencil, alpha) = (self.evidence.partition.internal(), shift(self.evidence)?);
+        let (pencil, alpha) = (self.evidence.partition.internal(), self.alpha);
         let in_norm = |block: &Mat<f64>, forces: Mat<f64>| {
             let mut image = forces;
             image *= Scale(1.0 / alpha);

@@ -2,18 +2,22 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
-use supel_testing::place::{Place, steel_brick, supel};
+use supel_testing::place::{Ended, Place, steel_brick, supel};
 
 use super::superelement::{Foreign, certify, failed, interface};
 use super::verdict;
 
-/// What is said of a superelement, without digests.
-fn answer(place: &Place, [stiffness, mass]: [&str; 2]) -> Value {
+/// `supel certify --json` of a superelement with these reduced matrices.
+fn certified(place: &Place, [stiffness, mass]: [&str; 2]) -> Ended {
     let flags = ["--reduced-stiffness", stiffness, "--reduced-mass", mass];
     let paths = ["K.mtx", "M.mtx", "psi.mtx", "dofs.txt", "nodes.csv"].map(|name| place.text(name));
     let [k, m, psi, dofs, nodes] = &paths;
-    let args = [&["certify", k, m, psi, "--dofs", dofs, "--nodes", nodes, "--json"], flags.as_slice()].concat();
-    let mut found: Value = serde_json::from_str(&supel(&args).expect(ExitCode::Done).out).expect("JSON");
+    supel(&[&["certify", k, m, psi, "--dofs", dofs, "--nodes", nodes, "--json"], flags.as_slice()].concat())
+}
+
+/// What is said of a superelement, without digests.
+fn answer(place: &Place, files: [&str; 2]) -> Value {
+    let mut found: Value = serde_json::from_str(&certified(place, files).expect(ExitCode::Done).out).expect("JSON");
     found["superelement"] = Value::Null;
     // Only matrices that name their rows are asked for the names.
     found["checks"].as_array_mut().expect("checks").retain(|check| check["id"] != "C-13");
@@ -126,12 +130,7 @@ fn rows_that_have_the_names_of_other_nodes_are_told() {
         let order: Vec<Named> = named(n_modes).into_iter().map(|(at, node, dof)| (at, name_of(node), dof)).collect();
         place.write("k.txt", labels(&foreign.stiffness, &order).as_bytes());
         place.write("m.txt", labels(&foreign.mass, &order).as_bytes());
-        let paths =
-            ["K.mtx", "M.mtx", "psi.mtx", "dofs.txt", "nodes.csv", "k.txt", "m.txt"].map(|name| place.text(name));
-        let [k, m, psi, dofs, nodes, khat, mhat] = &paths;
-        let model = ["certify", k, m, psi, "--dofs", dofs, "--nodes", nodes, "--json"];
-        let args = [&model[..], &["--reduced-stiffness", khat, "--reduced-mass", mhat]].concat();
-        serde_json::from_str(&supel(&args).out).expect("JSON")
+        serde_json::from_str(&certified(&place, [&place.text("k.txt"), &place.text("m.txt")]).out).expect("JSON")
     };
     let last = interface()[9];
     let (own, other) = (steel_brick().dofs[last].0, 20);
