@@ -83,7 +83,7 @@ struct Sizes;
 impl Terms<1> for Sizes {
     #[inline(always)]
     fn of<S: Simd>(self, simd: S, products: S::f64s) -> [S::f64s; 1] {
-        [simd.abs_f64s(products)]
+        [absolute(simd, products)]
     }
 }
 
@@ -93,7 +93,7 @@ struct ProductsAndSizes;
 impl Terms<2> for ProductsAndSizes {
     #[inline(always)]
     fn of<S: Simd>(self, simd: S, products: S::f64s) -> [S::f64s; 2] {
-        [products, simd.abs_f64s(products)]
+        [products, absolute(simd, products)]
     }
 }
 
@@ -157,6 +157,12 @@ fn group_sums<const W: usize, const N: usize>(
             }
         }
     });
+}
+
+/// Sizes by one mask. What the crate offers makes the mask anew for each vector by a function that a build with little optimisation calls.
+#[inline(always)]
+fn absolute<S: Simd>(simd: S, x: S::f64s) -> S::f64s {
+    simd.and_f64s(x, simd.splat_f64s(f64::from_bits(!(1 << 63))))
 }
 
 /// The sums of a tile of rows.
