@@ -79,7 +79,7 @@ pub(super) fn of_a_body(content: &Content<'_>) -> Option<Check> {
 
 /// M-16: the inertia of what Û moves is one that a body can have, where it moves one.
 pub(super) fn of_inertia(content: &Content<'_>) -> Option<Check> {
-    verification::of_inertia(mass_of_unit_motions(content)?.as_ref(), 0.0)
+    verification::of_inertia(mass_of_unit_motions(content)?.as_ref(), 0.0, 0.0)
 }
 
 /// The radius of gyration: the length that a shift of the centre is compared with.

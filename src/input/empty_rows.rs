@@ -2,7 +2,7 @@
 
 use super::{InputNote, MatrixInput};
 use crate::dofs::{DofMap, FileRows};
-use crate::sparse::SparseMatrix;
+use crate::sparse::{SparseMatrix, is_empty_row};
 
 /// Drops the rows and columns without stiffness and mass from both matrices and from the dof map, but for those that constraints tie to
 /// others (`tied`, ascending); says which are left.
@@ -13,7 +13,7 @@ pub(super) fn drop_empty(
 ) -> Option<(FileRows, InputNote)> {
     let n = stiffness.matrix.rows();
     let is_tied = |row: usize| tied.binary_search(&(row as u32)).is_ok();
-    let has_entries = |row: usize| !is_empty(&stiffness.matrix, row) || !is_empty(&mass.matrix, row);
+    let has_entries = |row: usize| !is_empty_row(&stiffness.matrix, row) || !is_empty_row(&mass.matrix, row);
     let is_kept: Vec<bool> = (0..n).map(|row| has_entries(row) || is_tied(row)).collect();
     let count = is_kept.iter().filter(|kept| !**kept).count();
     // A pencil without any row is left as it is, to be refused by name.
@@ -27,11 +27,6 @@ pub(super) fn drop_empty(
         dofs.retain(|_| kept.next().copied().unwrap_or(true));
     }
     Some((FileRows::kept(&is_kept), InputNote::EmptyRowsDropped { count, row: first + 1, dof }))
-}
-
-/// A row whose entries, if it has any, are all zero.
-fn is_empty(matrix: &SparseMatrix, row: usize) -> bool {
-    matrix.outer_view(row).is_none_or(|view| view.data().iter().all(|value| *value == 0.0))
 }
 
 /// The rows and columns that are kept. Zeros stored in a column that goes go with it.

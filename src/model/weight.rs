@@ -4,10 +4,10 @@ use std::collections::HashMap;
 
 use faer::Mat;
 
-use super::{Bodies, Model, node_of_row};
+use super::{Bodies, Model, Site, node_of_row};
 use crate::dense;
 use crate::dofs::{Direction, Dof};
-use crate::sparse::product;
+use crate::sparse::{is_empty_row, product};
 
 /// What M says of the six unit motions of all rows together, in scaled units.
 #[derive(Clone, Debug)]
@@ -18,6 +18,8 @@ pub struct Weight {
     pub motions: Option<Mat<f64>>,
     /// UᵀMU of each part of several nodes that M couples, where M leaves several parts uncoupled: springs between them have no mass.
     pub parts: Vec<PartWeight>,
+    /// Largest distance along an axis between nodes that M gives mass to a translation, where coordinates are known: zero of a point.
+    pub extent: f64,
     /// Whether every node has all translations or none, so that no direction lacks mass that others have.
     pub has_whole_nodes: bool,
     /// Whether supports may have taken mass out of the matrices before they were read.
@@ -76,7 +78,22 @@ impl Model {
         let has_whole_nodes = n_translations.values().all(|count| *count == 3);
         let parts = if sites.is_some() { self.weighed_parts(dofs, (&motions, &momenta)) } else { Vec::new() };
         let motions = sites.is_some().then_some(masses);
-        Some(Weight { translations, motions, parts, has_whole_nodes, supports: self.supports })
+        let extent = sites.map_or(0.0, |sites| self.extent_of_mass(&sites));
+        Some(Weight { translations, motions, parts, extent, has_whole_nodes, supports: self.supports })
+    }
+
+    fn extent_of_mass(&self, sites: &[Option<Site>]) -> f64 {
+        let has_mass = |site: &Site, row: usize| !site.direction.is_rotation() && !is_empty_row(&self.mass, row);
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for (row, site) in sites.iter().enumerate() {
+            for site in site.iter().filter(|site| has_mass(site, row)) {
+                for (axis, x) in site.position.into_iter().enumerate() {
+                    low[axis] = low[axis].min(x);
+                    high[axis] = high[axis].max(x);
+                }
+            }
+        }
+        (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max)
     }
 
     fn weighed_parts(&self, dofs: &[Option<Dof>], (motions, momenta): (&Mat<f64>, &Mat<f64>)) -> Vec<PartWeight> {

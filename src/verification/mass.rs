@@ -88,8 +88,9 @@ const INERTIA_OPEN: [f64; 2] = [1e-3, 1e-2];
 ///
 /// J = J_O − m(c² I − ccᵀ) is the difference of numbers that are (c/i)² times as large, i the radius of gyration. M is known to `precision` of
 /// its terms, in each direction by itself, so that the rotation about an axis may be off by that times m(c² − c_a²). No body has a negative
-/// moment, or one above the sum of the others.
-pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> {
+/// moment, or one above the sum of the others. `extent` is the largest distance between nodes with mass, zero where it is not known: what
+/// rounding leaves of the inertia of a body is not that of a point.
+pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64, extent: f64) -> Option<Check> {
     let mass = (m_f[(0, 0)] + m_f[(1, 1)] + m_f[(2, 2)]) / 3.0;
     let Place { centre: c, gyration } = Place::of(m_f, mass);
     let square: f64 = c.iter().map(|x| x * x).sum();
@@ -99,18 +100,20 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64) -> Option<Check> 
     let mean = moments.iter().sum::<f64>() / 3.0;
     let about_origin = (0..3).map(|i| m_f[(3 + i, 3 + i)]).sum::<f64>() / 3.0;
     // A point has none, but for the rounding of its distance.
-    let is_point = mass.is_nan() || mass <= 0.0 || mean.abs() <= NOISE_FACTOR * f64::EPSILON * about_origin;
-    if is_point || of_a_body(m_f, precision).verdict() == Verdict::Fail {
+    let is_point = extent == 0.0 && mean.abs() <= NOISE_FACTOR * f64::EPSILON * about_origin;
+    let has_none = mass.is_nan() || mass <= 0.0 || is_point;
+    if has_none || of_a_body(m_f, precision).verdict() == Verdict::Fail {
         return None;
     }
-    let digits = precision.max(f64::EPSILON) * mass * square / mean.abs();
+    // Above one nothing of it is known, whatever rounding left of the mean.
+    let digits = (precision.max(f64::EPSILON) * mass * square / mean.abs()).min(1.0);
     let against_bodies = (-moments[0]).max(moments[2] - moments[0] - moments[1]).max(0.0) / mean.abs();
     let [engineering, fail] = INERTIA_OPEN;
     Some(Check {
         id: "M-16",
         name: "inertia about the centre is known",
         equation: "max(u m c², −J₁, J₃ − J₁ − J₂) / J̄, J about the centre, u the precision of M",
-        value: dense::worst([digits, against_bodies]),
+        value: dense::worst([digits, against_bodies.min(1.0)]),
         limits: Limits { engineering, ..Limits::default() },
         fail_above: fail,
         worst: Some(format!(

@@ -385,3 +385,19 @@ fn ms_09_an_inertia_far_from_the_origin() {
     assert_eq!(verdict(&mass_of(&near, 6)), Some(Verdict::Pass));
     assert_eq!(verdict(&far), Some(Verdict::Pass));
 }
+
+/// The same frame ten million times its size away: not even the digits of a double are left of its inertia. It is no point for that.
+#[test]
+fn ms_09_an_inertia_lost_far_from_the_origin() {
+    let nodes = [[0.0; 3], [0.4, 0.0, 0.0], [0.4, 0.5, 0.0], [0.9, 0.5, 0.3], [0.9, 0.9, 0.7]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4]];
+    let near = frame(&nodes, &edges, &Section::round(0.05), &Material::STEEL_SI, Inertia::Consistent);
+    for distance in [6e6, 6e7, 6e8] {
+        let far = translated(&near, [distance, -distance, 0.5 * distance]);
+        let found =
+            Case::new(&far, &[direct("ends", &[1, 5])]).method("craig-bampton").count(4).run().expect("a result");
+        let checks = &found.report.body.checks;
+        let check = checks.iter().find(|check| check.name == "inertia about the centre is known");
+        assert_eq!(check.map(Check::verdict), Some(Verdict::Fail), "{distance}: {check:?}");
+    }
+}
