@@ -2403,9 +2403,13 @@ pub enum Error {
         n_modes: usize,
     },
     /// A reduced matrix of another size than its basis.
-    #[entry("E-REDUCED-SIZE", InputData, "give K̂ and M̂ of the basis that is given: a row for each of its columns")]
+    #[entry(
+        "E-REDUCED-SIZE",
+        InputData,
+        "give K̂ and M̂ of the basis that is given, a row for each of its columns, with the same names for the same rows"
+    )]
     #[error(
-        "{}: the reduced matrix does not go with the basis – found {} – expected {n_columns}, one for each column of the basis",
+        "{}: the reduced matrix does not go with the basis – found {}{of} – expected {n_columns}, one for each column of the basis",
         path.display(), counted(*found, "row", "rows")
     )]
     ReducedSize {
@@ -2413,6 +2417,8 @@ pub enum Error {
         path: PathBuf,
         /// Its rows.
         found: usize,
+        /// What these are the rows of, where that is not the file alone.
+        of: &'static str,
         /// Columns of the basis.
         n_columns: usize,
     },
@@ -2966,8 +2972,9 @@ pub enum Error {
     /// A motion as a whole, or of a mechanism, has negative energy, and a count finds the eigenvalue.
     #[entry("E-NEG-RIGID", ModelPhysics, "check preload and negative springs")]
     #[error(
-        "a motion that strains nothing has the negative energy {energy:.1e} – expected zero within {noise:.1e} – a Sturm count \
+        "a motion that strains nothing has the negative energy {energy:.1e}{} – expected zero within {noise:.1e} – a Sturm count \
         finds {} below half of it: the stiffness is indefinite – check preload and negative springs; {STATE_DIGITS}",
+        at.as_ref().map_or_else(String::new, |at| format!(", its force is largest at {at}")),
         counted(*count, "eigenvalue", "eigenvalues")
     )]
     NegativeRigidEnergy {
@@ -2977,6 +2984,8 @@ pub enum Error {
         noise: f64,
         /// Eigenvalues of K − σM below half of it, counted.
         count: usize,
+        /// Where its force is largest, where that is known.
+        at: Option<String>,
     },
     /// A rigid-body motion moves no mass.
     #[entry("E-RIGID-MASS", ModelPhysics, "give the massless part its mass")]
@@ -3275,6 +3284,20 @@ pub enum Error {
         n_weights: usize,
         /// Nodes there are.
         n_nodes: usize,
+    },
+    /// Weights of a patch are too unlike.
+    #[entry("E-WEIGHT-SPREAD", Usage, "leave the nodes of the smallest weights out of the patch")]
+    #[error(
+        "interface {interface:?}: `weights` go from {smallest:.1e} to {largest:.1e} – expected the largest to be at most a million times \
+        the smallest, since the mean motion of the others is rounded by as much – leave the nodes of the smallest weights out of the patch"
+    )]
+    WeightSpread {
+        /// The interface.
+        interface: String,
+        /// The smallest.
+        smallest: f64,
+        /// The largest.
+        largest: f64,
     },
     /// Rigid patches tie all nodes, and nothing elastic is left.
     #[entry("E-WHOLLY-RIGID", ModelPhysics, "leave nodes out of the patch; a rigid part needs no superelement")]

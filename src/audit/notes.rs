@@ -4,6 +4,7 @@ use serde::Serialize;
 use supel_runtime::{Flag, MatrixKind, Method, RigidBodyModes, Superelement};
 
 use super::content::Content;
+use super::recovery;
 
 /// What was not judged of this file, besides the fields that no file can confirm.
 pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
@@ -36,6 +37,11 @@ const fn unvouched(field: &'static str, reason: &'static str) -> Unvouched {
 
 const PARTS: Unvouched =
     unvouched("generator.parts_of_earlier_runs", "what a cache held is known to the run alone that took it");
+const RECOVERY: &str = "recovery";
+const UNTIED_RECOVERY: Unvouched = unvouched(
+    RECOVERY,
+    "rigid-body motion ties its rows where it is the six unit motions, and here it is not: nothing in the file does",
+);
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
@@ -80,7 +86,7 @@ const ALONE: [Unvouched; 35] = [
     unvouched("mixing", "the length of a named column is in no other place"),
     unvouched("rigid_body_mass", "of a held component there is none"),
     unvouched(
-        "recovery",
+        RECOVERY,
         "rigid-body motion and the positions of its nodes tie its interface columns, nothing its modal ones",
     ),
     unvouched("recovery_dofs", NOT_AT_HAND),
@@ -139,12 +145,16 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "matrices" => !tensors.matrices.is_empty(),
         "damping" => metadata.matrices.iter().any(|matrix| matrix.kind == MatrixKind::Damping),
         // Faces may have been taken out.
-        "recovery" | "recovery_dofs" | "recovery_faces" => tensors.recovery.is_some(),
+        RECOVERY | "recovery_dofs" | "recovery_faces" => tensors.recovery.is_some(),
         "recovery_face_offsets" => tensors.recovery.as_ref().is_some_and(|recovery| recovery.faces().is_some()),
         "recovery_positions" => tensors.recovery.as_ref().is_some_and(|recovery| recovery.positions().is_some()),
         _ => true,
     };
-    list.iter().filter(is_there).copied().collect()
+    let of_file = |unvouched: &Unvouched| match unvouched.field {
+        RECOVERY if compared == Compared::Alone && !recovery::is_tied(superelement) => UNTIED_RECOVERY,
+        _ => *unvouched,
+    };
+    list.iter().filter(is_there).map(of_file).collect()
 }
 
 /// Whether an interface of a kept job has axes along a hole.

@@ -6,18 +6,22 @@
 //! A unit translation moves a node by that translation, and a unit rotation θ moves one at p by θ × p. Where the file does not say where a
 //! recovered node is, that are nine numbers of each node for three unknown.
 
-use supel_runtime::{Direction, Precision, RecoveredDof, RigidBodyModes};
+use supel_runtime::{Direction, Precision, RecoveredDof, RigidBodyModes, Superelement};
 
 use super::content::Content;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::model::Site;
 use crate::verification::check::{Check, Limits};
 
+/// Whether rigid-body motion ties recovered rows: where it is the six unit motions.
+pub(super) fn is_tied(superelement: &Superelement) -> bool {
+    superelement.metadata().model.rigid_body_modes == RigidBodyModes::Geometric && superelement.n_rigid() == 6
+}
+
 /// M-11: recovered rows carry rigid-body motion, where that is the six unit motions.
 pub(super) fn rigid_motion(content: &Content<'_>) -> Option<Check> {
     let recovery = content.superelement.tensors().recovery.as_ref()?;
-    let is_classical = content.superelement.metadata().model.rigid_body_modes == RigidBodyModes::Geometric;
-    if !is_classical || content.n_rigid() != 6 {
+    if !is_tied(content.superelement) {
         return None;
     }
     let rows = unpacked(recovery.rows());

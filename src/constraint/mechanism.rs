@@ -145,7 +145,7 @@ fn is_rounding(
         count => {
             // Beyond rounding it is no motion that should be free: the component buckles.
             let error = match n_negative(partition, constraint, rigid)? {
-                0 => Error::NegativeRigidEnergy { energy: lambda, noise, count },
+                0 => Error::NegativeRigidEnergy { energy: lambda, noise, count, at: None },
                 count => Error::IndefiniteStiffness { count, boundary: "free" },
             };
             Err(few_digits(error, &analysis, (&partition.stiffness).into(), partition.precision.stiffness))

@@ -3,6 +3,7 @@
 use faer::Mat;
 
 use super::motions::{Body, Motions};
+use super::nodes::FIRST_ROTATION;
 use crate::dense;
 use crate::eigen::{NO_MASS, zero};
 use crate::error::Result;
@@ -22,6 +23,8 @@ pub(super) struct Free {
     pub(super) largest_quotient: f64,
     /// The largest Rayleigh quotient that rounding of the data can make.
     pub(super) noise: f64,
+    /// The Rayleigh quotient of a motion that is farther below zero than roundings of K explain, and what these can make of it.
+    pub(super) below_zero: Option<[f64; 2]>,
     /// The combinations of the six columns of C that are M-orthonormal, 6 × (≤ 6).
     pub(super) orthonormal: Mat<f64>,
 }
@@ -47,11 +50,17 @@ impl Free {
         let (massive, massless) = by_mass(&mass, &moving)?;
         let look = |directions: &Mat<f64>| energies(motions, directions, &energy, &terms);
         let (of_massive, of_massless) = (look(&massive)?, look(&massless)?);
+        // Translations depend on no coordinate: what is below zero of them is what the program that wrote K left.
+        let shown = (0..FIRST_ROTATION).map(|j| -energy[(j, j)] / terms[(j, j)].max(f64::MIN_POSITIVE));
+        let shown = shown.fold(motions.rounding(), f64::max);
+        let lowest = of_massive.iter().min_by(|a, b| a.energy.total_cmp(&b.energy));
+        let lowest = lowest.map(|of| [of.energy, FREE_BELOW_NOISE * of.noise.max(shown * of.terms)]);
         Ok(Self {
             n_moving: moving.ncols(),
             n_free: n_free(&of_massive) + n_free(&of_massless),
             largest_quotient: of_massive.iter().fold(0.0, |max, of| max.max(of.energy.abs())),
             noise: of_massive.iter().fold(0.0, |max, of| max.max(of.noise)),
+            below_zero: lowest.filter(|[energy, level]| *energy < -level),
             orthonormal: massive,
         })
     }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::below_zero;
 use super::doubt::{Costly, Doubt, Place};
 use super::free::Free;
 use super::mended::{Mended, apart, first_rounded, mended};
@@ -70,7 +71,7 @@ pub(super) fn settled(
                 },
             }
         }
-        false => case.rotations(&whole.zeros()?),
+        false => case.rotations(&below_zero::refused(motions, (doubts, &case.free), &whole)?),
     }
 }
 

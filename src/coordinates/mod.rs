@@ -20,6 +20,8 @@
 //! - There are as many, with free translations and held rotations. No solid has such supports.
 //! - Motions cost hardly anything. The coordinates are rounded; they are corrected with the motions that K knows.
 //!
+//! What a motion by coordinates costs below zero none of them explains: `below_zero` asks for a negative spring.
+//!
 //! K of a preloaded state answers rotations with its internal forces as they turn; `preload` compares them, and nothing is mended.
 //!
 //! Axes that the job gives for nodes to few digits make forces at these nodes, within what the digits leave open: `axis_digits` refuses
@@ -29,6 +31,7 @@
 //! that couples nodes shows them, and `patch_nodes` says which nodes of patches nothing confirms there.
 
 mod axis_digits;
+mod below_zero;
 mod doubt;
 mod free;
 mod judgement;

@@ -10,7 +10,7 @@ use crate::cache::{Digest, Key, Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::dofs::Dof;
 use crate::error::{Error, Result};
-use crate::factor::count_below;
+use crate::factor::{count_below, whole_count};
 use crate::model::Model;
 use crate::partition::{DofOrigin, Held, Partition};
 use crate::rigid::{ZeroModes, found_zero_modes, moving_directions, refuse_uncounted};
@@ -83,6 +83,12 @@ impl<'a> Whole<'a> {
             Ok(_) | Err(Error::SturmPivot) => Ok(None),
             Err(error) => Err(error),
         }
+    }
+
+    /// Eigenvalues of the pencil below a shift, which lies where there are none but those that are counted.
+    pub(super) fn counted_below(&self, sigma: f64) -> Result<usize> {
+        let whole = self.partition()?;
+        Ok(whole_count(&whole.analysis()?, whole.pencil(), sigma)?.below)
     }
 
     /// The zero modes of K, by inverse iteration.

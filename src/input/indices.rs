@@ -49,6 +49,18 @@ impl Indices {
         rest
     }
 
+    /// The indices at even positions and those at odd ones.
+    pub(super) fn into_alternating(self) -> [Self; 2] {
+        [0, 1].map(|first| {
+            let numbers: Vec<u32> = self.numbers.iter().skip(first).step_by(2).copied().collect();
+            // Where the other half has the first misfit, that of this one is not known but for its place.
+            let own = self.misfit.filter(|(position, _)| position % 2 == first).map(|(at, index)| (at / 2, index));
+            let placed = || numbers.iter().position(|number| *number == u32::MAX).map(|at| (at, i64::from(u32::MAX)));
+            let misfit = own.or_else(placed);
+            Self { numbers, misfit }
+        })
+    }
+
     /// Those that fit, where all do up to the one that is asked for.
     #[cfg(feature = "hdf5")]
     pub(super) fn numbers(&self) -> &[u32] {

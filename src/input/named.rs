@@ -51,12 +51,14 @@ pub(super) fn of_role(path: &Path, names: &[&str], role: MatrixRole) -> Result<u
         _ => None,
     };
     chosen.ok_or_else(|| {
-        let of_role: Vec<&&str> = names.iter().filter(|name| states(name)).collect();
-        if let [first, others @ ..] = &of_role[..]
-            && !others.is_empty()
-            && others.iter().all(|name| name == first)
-        {
-            return twice(path, first, of_role.len());
+        let of_role: Vec<&str> = names.iter().copied().filter(|name| states(name)).collect();
+        for among in [&of_role[..], names] {
+            if let [first, others @ ..] = among
+                && !others.is_empty()
+                && others.iter().all(|name| name == first)
+            {
+                return twice(path, first, among.len());
+            }
         }
         let matrices = names.iter().map(|name| (*name).to_owned()).collect();
         let role = match role {
@@ -120,6 +122,7 @@ mod tests {
         assert_eq!(choose(&["KAA", "KAA"], Some("KAA"), stiffness), Err("E-SAME-NAME"));
         assert_eq!(choose(&["KAA", "MAA", "KAA"], None, stiffness), Err("E-SAME-NAME"));
         assert_eq!(choose(&["KAA", "MAA", "KAA"], None, MatrixRole::Mass), Ok(1));
+        assert_eq!(choose(&["KAA", "KAA"], None, MatrixRole::Conversion), Err("E-SAME-NAME"));
         assert_eq!(choose(&["A"], None, stiffness), Ok(0));
         assert_eq!(choose(&["M"], None, stiffness), Err("E-MATRIX-AMBIGUOUS"));
         assert_eq!(choose(&["M"], None, MatrixRole::Conversion), Ok(0));

@@ -13,12 +13,10 @@ use super::fortran::whole;
 use super::nastran_frames::grid_frames;
 use super::row_label::RowLabel;
 use crate::error::{Error, Result};
+use crate::number::counted;
 
 /// Directions of a grid point.
 const DIRECTIONS: std::ops::RangeInclusive<u8> = 1..=6;
-/// More scalar points than one range of a real model has.
-const MAX_RANGE: i64 = 10_000_000;
-
 /// EXTRN, GRID and SPOINT of bulk data and punch files.
 pub(super) struct NastranRows;
 
@@ -31,7 +29,7 @@ impl Format for NastranRows {
 impl DofMapFormat for NastranRows {
     fn read(&self, path: &Path, n: usize, _: &Allowance) -> Result<ReadDofs> {
         let listed = extern_rows(path)?;
-        let labels = if listed.is_empty() { all_rows(path)? } else { listed };
+        let labels = if listed.is_empty() { all_rows(path, n)? } else { listed };
         if labels.is_empty() {
             return Err(Error::NoData {
                 path: path.to_owned(),
@@ -71,8 +69,8 @@ fn extern_rows(path: &Path) -> Result<Vec<RowLabel>> {
     Ok(rows)
 }
 
-/// The g-set.
-fn all_rows(path: &Path) -> Result<Vec<RowLabel>> {
+/// The g-set. Ranges of scalar points may be many numbers in few characters: none may make more points than the matrices have rows, `n`.
+fn all_rows(path: &Path, n: usize) -> Result<Vec<RowLabel>> {
     let mut is_grid: BTreeMap<i64, bool> = BTreeMap::new();
     let mut cards = Cards::open(path, "GRID")?;
     while let Some(card) = cards.advance()? {
@@ -88,8 +86,10 @@ fn all_rows(path: &Path) -> Result<Vec<RowLabel>> {
         match fields[..] {
             [first, word, last] if word.eq_ignore_ascii_case(b"THRU") => {
                 let (first, last) = (number(first)?, number(last)?);
-                if last.saturating_sub(first) > MAX_RANGE {
-                    return Err(wrong(&card.place, fields[2], "a range of scalar points"));
+                let n_points = u64::try_from(last.saturating_sub(first)).map_or(0, |beyond| beyond.saturating_add(1));
+                if n_points.saturating_add(is_grid.len() as u64) > n as u64 {
+                    let expected = format!("no more points than the {} of the matrices", counted(n, "row", "rows"));
+                    return Err(wrong(&card.place, fields[2], &expected));
                 }
                 is_grid.extend((first..=last).map(|point| (point, false)));
             }

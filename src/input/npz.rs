@@ -9,6 +9,7 @@ use super::file_start::FileStart;
 use super::format::{Format, MatrixFormat, MatrixSource, ReadMatrix, Sureness};
 use super::indices::Indices;
 use super::mode_format::{ModeSource, ReadModes};
+use super::mode_matrix::Order;
 use super::named::chosen;
 use super::numpy_array::{Array, Reals};
 use super::{MatrixInput, MatrixRole};
@@ -148,9 +149,16 @@ impl Reading<'_> {
     fn coordinate(&self, shape: [u64; 2]) -> Result<MatrixInput> {
         let n = order(self.path(), "the matrix", shape)?;
         let [rows, columns] = if self.archive.has("coords.npy") {
-            let mut rows = self.array("coords.npy")?.indices()?;
-            let columns = rows.split_off(rows.len() / 2);
-            [rows, columns]
+            let coords = self.array("coords.npy")?;
+            let order = coords.header.order;
+            let mut rows = coords.indices()?;
+            match order {
+                Order::ByRows => {
+                    let columns = rows.split_off(rows.len() / 2);
+                    [rows, columns]
+                }
+                Order::ByColumns => rows.into_alternating(),
+            }
         } else {
             [self.array("row.npy")?.indices()?, self.array("col.npy")?.indices()?]
         };

@@ -43,6 +43,21 @@ pub(super) fn stored_as(descr: &str) -> Option<(Kind, Endian)> {
     matches!(mark, "<" | ">" | "|" | "=").then_some((kind, endian))
 }
 
+/// Values of an array of this shape that lie with the first index running fastest, the last one running fastest.
+fn by_rows(values: &[f64], shape: &[u64]) -> Vec<f64> {
+    let of_first = shape.iter().scan(1, |stride, size| Some(std::mem::replace(stride, *stride * size)));
+    let strides: Vec<u64> = of_first.collect();
+    let place = |at: u64| {
+        let (mut rest, mut place) = (at, 0);
+        for (size, stride) in shape.iter().zip(&strides).rev() {
+            place += rest % size * stride;
+            rest /= size;
+        }
+        place as usize
+    };
+    (0..values.len() as u64).map(|at| values[place(at)]).collect()
+}
+
 /// Whether an archive says of its content that it is not the one that was put in.
 fn is_of_archive(error: &std::io::Error) -> bool {
     error.get_ref().is_some_and(|inner| inner.is::<rawzip::Error>())
@@ -95,8 +110,15 @@ impl<'a, R: Read> Array<'a, R> {
         Ok(Self { path, format, name, header, numbers })
     }
 
-    /// All values as real numbers.
-    pub(super) fn reals(mut self) -> Result<Reals> {
+    /// All values as real numbers, the last index of the array running fastest whatever the order in the file.
+    pub(super) fn reals(self) -> Result<Reals> {
+        let (shape, order) = (self.header.shape.clone(), self.header.order);
+        let Reals { values, digits } = self.reals_as_stored()?;
+        let values = if order == Order::ByColumns && shape.len() > 1 { by_rows(&values, &shape) } else { values };
+        Ok(Reals { values, digits })
+    }
+
+    fn reals_as_stored(mut self) -> Result<Reals> {
         let (stored, n) = (self.stored(Numbers::Real)?, self.n_numbers()?);
         let values = raw_numbers::reals(&mut self.numbers, stored, n);
         let values = values.map_err(|failure| self.error(failure))?;
@@ -113,7 +135,7 @@ impl<'a, R: Read> Array<'a, R> {
         Ok(values)
     }
 
-    /// All values as indices.
+    /// All values as indices, in the order of the file.
     pub(super) fn indices(mut self) -> Result<Indices> {
         let (stored, n) = (self.stored(Numbers::Whole)?, self.n_numbers()?);
         let indices = raw_numbers::indices(&mut self.numbers, stored, n);
@@ -186,7 +208,7 @@ impl<'a, R: Read> Array<'a, R> {
         // The numbers as they are read and in columns.
         source.allowance.claim(path).add(2 * NUMBER * rows * n_columns as u64)?;
         let order = self.header.order;
-        let columns = columns_of(&self.reals()?.values, [n_rows, n_columns], order);
+        let columns = columns_of(&self.reals_as_stored()?.values, [n_rows, n_columns], order);
         refuse_not_finite(path, &columns)?;
         Ok(ReadModes::of_columns(columns))
     }

@@ -92,6 +92,8 @@ fn fields(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 struct Element {
     is_unsymmetric: bool,
     nodes: Vec<i64>,
+    /// How many there are by the keyword, which comments need not list.
+    n_nodes: usize,
     /// Degrees of freedom of each node from a position on, from zero.
     dofs: Vec<(usize, Vec<u8>)>,
     /// What each matrix is called, and its line.
@@ -151,6 +153,8 @@ impl Element {
         let mut parameters = rest.split(',');
         match name {
             "*USERELEMENT" => {
+                let n_nodes = parameters.clone().find_map(|parameter| parameter.strip_prefix("NODES="));
+                self.n_nodes = n_nodes.and_then(|n| n.parse().ok()).unwrap_or(0);
                 self.is_unsymmetric = parameters.any(|parameter| parameter == "UNSYMM");
                 return Part::Dofs;
             }
@@ -178,7 +182,8 @@ impl Element {
 
     /// Rows that nodes and degrees of freedom make.
     fn n_rows(&self) -> usize {
-        let ends = self.dofs.iter().skip(1).map(|(from, _)| *from).chain([self.nodes.len()]);
+        let n_listed = if self.nodes.is_empty() { self.n_nodes } else { self.nodes.len() };
+        let ends = self.dofs.iter().skip(1).map(|(from, _)| *from).chain([n_listed]);
         let n_nodes = self.dofs.iter().zip(ends).map(|((from, dofs), end)| dofs.len() * end.saturating_sub(*from));
         n_nodes.fold(0, usize::saturating_add)
     }

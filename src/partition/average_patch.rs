@@ -8,8 +8,11 @@ use super::interface_node::{InterfaceNode, Resolved, Rows};
 use super::node_catalogue::NodeCatalogue;
 use super::rigid_patch;
 use super::sites::Sites;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::job::{InterfaceJob, Weights};
+
+/// The largest weight over the smallest: the mean motion is rounded by as many ε, and a node that counts for less does not count.
+const MAX_SPREAD: f64 = 1e6;
 
 /// The node of a patch with the translations of the nodes that have weight.
 pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]) -> Result<Resolved> {
@@ -26,6 +29,10 @@ pub(super) fn node(catalogue: &NodeCatalogue, job: &InterfaceJob, labels: &[i64]
             rows.push(*row);
             weights.push(weight);
         }
+    }
+    let [smallest, largest] = [f64::min, f64::max].map(|of| weights.iter().copied().reduce(of).unwrap_or(1.0));
+    if largest > MAX_SPREAD * smallest {
+        return Err(Error::WeightSpread { interface: job.name.clone(), smallest, largest });
     }
     Ok(Resolved::new(rigid_patch::interface_node(catalogue, job, labels)?, Rows::Average { rows, weights }))
 }

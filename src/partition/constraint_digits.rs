@@ -29,6 +29,8 @@ const OF_DOUBLES: f64 = 1e-13;
 const OF_DOUBLE: i32 = 16;
 /// Roundings that each factor may be off by in the mean: its own, and that of the coordinates that it was made of.
 const ROUNDINGS: f64 = 2.0;
+/// Share of itself that a factor may change by: a half, and what rounding makes of that.
+const MOST_OF_A_FACTOR: f64 = 0.5 + 1e-9;
 /// Singular values of unit columns, relative to the largest, that are rounding of coordinates: nodes in line turn about none.
 const NOTHING: f64 = 1e-9;
 
@@ -91,6 +93,11 @@ fn within_digits(motions: &Motions<'_>, constraint: &Constraint) -> Result<Optio
         }
     }
     if dense::norm(&steps) > ROUNDINGS * (terms.len() as f64).sqrt() {
+        return Ok(None);
+    }
+    // A number that was rounded to what is there is at least half of it: another would not be this constraint.
+    let mut changed = terms.iter().zip(half_units.iter().zip(&steps));
+    if changed.any(|((_, value), (half_unit, step))| (half_unit * step).abs() > MOST_OF_A_FACTOR * value.abs()) {
         return Ok(None);
     }
     let right = terms.iter().zip(half_units.iter().zip(&steps));

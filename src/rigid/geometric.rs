@@ -254,7 +254,7 @@ fn refuse_negative(partition: &Partition, energy: f64, noise: f64) -> Result<()>
         Err(Error::IndefiniteStiffness { .. } | Error::NotDefinite { .. }) => {
             let analysis = Analysis::new(partition.pencil())?;
             let count = whole_count(&analysis, partition.pencil(), 0.5 * energy)?.below;
-            Err(Error::NegativeRigidEnergy { energy, noise, count })
+            Err(Error::NegativeRigidEnergy { energy, noise, count, at: None })
         }
         found => found.map(drop),
     }

@@ -77,8 +77,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
         let m_f = evidence.reduction.rigid_body_mass.as_ref();
         let precision = evidence.partition.precision.mass.share;
         checks.push(mass::of_a_body(m_f, precision));
-        let extent = evidence.partition.model.weight.as_ref().map_or(0.0, |weight| weight.extent);
-        checks.extend(mass::of_inertia(m_f, precision, extent));
+        checks.extend(mass::of_inertia(m_f, precision, mass::extent(evidence.partition)));
     }
     if !evidence.rigid.is_classical || evidence.partition.held.count() > 0 {
         checks.extend(mass::of_weighed_body(evidence.partition));

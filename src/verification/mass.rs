@@ -124,6 +124,11 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64, extent: f64) -> O
     })
 }
 
+/// The largest distance between nodes with mass; zero where it is not known.
+pub(super) fn extent(partition: &Partition) -> f64 {
+    partition.model.weight.as_ref().map_or(0.0, |weight| weight.extent)
+}
+
 /// M-16 of a component that is no free body – several, or one that the job holds – by its mass before supports of the job take rows out of
 /// it. None where supports may have taken rows out before, of which all of a node leave the mass of no body as well as some: matrices that
 /// something holds, such as those of a superelement with `[[fixed]]` of its own.

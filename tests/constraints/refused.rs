@@ -125,6 +125,30 @@ fn constraints_of_few_digits_are_set_right() {
     }
 }
 
+/// A small factor of a constraint is no rounding of none: a row that compares two more nodes by a ten-thousandth stays as it is.
+#[test]
+fn a_small_factor_is_not_set_to_nothing() {
+    let half = brick([2, 2, 2], [0.5, 0.31, 0.23], &Material::STEEL_SI);
+    let model = join(&half, &translated(&half, [0.5, 0.0, 0.0]), &[]);
+    let (ends, starts): (Vec<i64>, Vec<i64>) =
+        (1..=27).filter(|label| label % 3 != 2).partition(|label| label % 3 == 0);
+    let tie = |(end, start): (&i64, &i64)| {
+        let of = |axis: u8| vec![(row(&model, (*end, axis)), 1.0), (row(&model, (27 + start, axis)), -1.0)];
+        [0, 1, 2].map(of)
+    };
+    let mut rows: Rows = ends.iter().zip(&starts).flat_map(tie).collect();
+    let mut more = rows[0].clone();
+    more.extend([(row(&model, (2, 0)), 1e-4), (row(&model, (5, 0)), -1e-4)]);
+    rows.push(more);
+    let n_rows = rows.len();
+    let case = Case::new(model, rows);
+    case.reduced(r#"{ name = "foot", nodes = [1, 7, 25] }"#, CRAIG_BAMPTON, "");
+    let (codes, told) = case.told();
+    assert!(codes.iter().any(|code| code == "W-CONSTRAINT-ROUNDED"), "{told}");
+    assert!(!told.contains("set right within their digits"), "{told}");
+    assert!(told.contains(&format!("{n_rows} constraints, {n_rows} dofs follow others")), "{told}");
+}
+
 /// Ties of equal dofs of nodes that are apart are no constraints of few digits. The halves turn together at the cost of a little motion along
 /// the gap, and the warning of motions inside says where it may come from.
 #[test]

@@ -213,6 +213,7 @@ fn is_about_two_keys(error: &Error) -> bool {
             | Error::LoadTwice { .. }
             | Error::MatrixTwice { .. }
             | Error::WeightCount { .. }
+            | Error::WeightSpread { .. }
     )
 }
 

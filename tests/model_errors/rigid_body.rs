@@ -230,3 +230,21 @@ fn distance(x: [f64; 3], point: [f64; 3], axis: [f64; 3]) -> f64 {
     let along: f64 = (0..3).map(|i| r[i] * axis[i]).sum();
     (0..3).map(|i| (r[i] - along * axis[i]).powi(2)).sum::<f64>().sqrt()
 }
+
+/// A negative spring against the rotation of one node, a billionth of what the node has: no force under translation shows it, and the cost of
+/// a rotation that is below zero is not that of rounded coordinates.
+#[test]
+fn a_negative_spring_is_not_rounding_of_coordinates() {
+    let n = 40;
+    let place = |i: usize| if i <= 20 { [i as f64, 0.0, 0.0] } else { [20.0, (i - 20) as f64, 0.0] };
+    let nodes: Vec<[f64; 3]> = (0..=n).map(place).collect();
+    let edges: Vec<[usize; 2]> = (0..n).map(|i| [i, i + 1]).collect();
+    let bent = frame(&nodes, &edges, &Section::round(0.1), &Material::UNIT, Inertia::Consistent);
+    let row = bent.dofs.iter().position(|dof| *dof == (8, 5)).expect("node 8 rz");
+    let own = bent.stiffness.iter().find(|(i, j, _)| (*i, *j) == (row as u32, row as u32)).expect("its stiffness").2;
+    for share in [1e-9, 1e-8] {
+        let error = coordinates_refused(&grounded(&bent, row, -share * own));
+        assert!(matches!(error, Error::NegativeRigidEnergy { count: 1, .. }), "{share}: {error}");
+        assert_says(&error, ErrorClass::ModelPhysics, &["negative energy", "node 8 rz", "negative springs"]);
+    }
+}

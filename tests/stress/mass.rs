@@ -366,6 +366,20 @@ fn few_digits_and_a_heavy_mass_make_no_massless_mechanism() {
     }
 }
 
+/// A weak spring to the ground in the middle of a slender bar is told whatever rounding in its rigid ends would hide: five motions are free,
+/// and the sixth is held.
+#[test]
+fn a_spring_to_the_ground_is_told_beside_rigid_patches() {
+    let bar = brick([12, 2, 2], [10.0, 0.05, 0.05], &Material::STEEL_SI);
+    let label = labels_at(&bar, |x| (x - 5.0).abs() < 1e-9)[0];
+    let row = bar.dofs.iter().position(|dof| *dof == (label, 1)).expect("uy in the middle");
+    let own = bar.stiffness.iter().find(|(i, j, _)| (*i, *j) == (row as u32, row as u32)).expect("its stiffness").2;
+    let held = grounded(&bar, row, 1e-9 * own);
+    let outcome = Case::new(&held, &rigid_ends(&bar, 10.0)).method("herting").count(6).accepted();
+    assert_eq!(n_rigid(&outcome), 5);
+    assert!(message_of(&outcome, "W-GROUNDED").contains("nearly free but not quite"), "{:?}", warnings(&outcome));
+}
+
 /// A frame a hundred times its size away from the origin, M of six digits: nothing is left of its inertia about its centre, which is the
 /// difference of numbers ten thousand times as large. Next to the origin, and with all digits, it is known.
 #[test]

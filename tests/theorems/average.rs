@@ -3,6 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side};
 use supel::dofs::Direction;
+use supel::error::Error;
 use supel::job::{InterfaceJob, NodeSelection, Weights};
 use supel_models::transform::supported;
 use supel_models::{Material, Model, brick};
@@ -85,6 +86,22 @@ fn a_force_on_the_node_is_shared_out_as_the_mean_is_taken() {
         // Solves with matrices whose condition is some 1e4; rotations are of the size of translations.
         assert!((product[(i, j)] - f64::from(u8::from(i == j))).abs() < 1e4 * 100.0 * EPS, "{product:?}");
     }
+}
+
+/// Weights that are too unlike leave nothing of the mean motion of the nodes that count.
+#[test]
+fn weights_a_million_times_apart_are_the_most_that_count() {
+    let model = broad();
+    let labels = model.groups["XMAX"].clone();
+    let weighted = |least: f64| {
+        let weights = (0..labels.len()).map(|at| if at % 2 == 0 { 1.0 } else { least }).collect();
+        let nodes = NodeSelection::Labels(labels.clone());
+        let patch = InterfaceJob { nodes, weights: Some(Weights::Given(weights)), ..average("XMAX") };
+        reduce(&model, &[patch], Method::CraigBampton, 3).map(|_| ())
+    };
+    weighted(1e-6).expect("a superelement");
+    let refused = weighted(1e-7);
+    assert!(matches!(refused, Err(Error::WeightSpread { smallest: 1e-7, largest: 1.0, .. })), "{refused:?}");
 }
 
 /// Two ends of a bar, weighted by area: pulled apart, they are as far as EA/L says, since the bar may get thinner. Rigid ends hold it.

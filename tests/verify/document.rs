@@ -55,6 +55,28 @@ fn text_fits_the_page_and_says_what_was_compared() {
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
 }
 
+/// Rigid-body motion ties recovered rows of a free component alone, and a file that has nothing else says so.
+#[test]
+fn recovered_rows_of_a_held_component_are_not_said_to_be_tied() {
+    let place = Place::with_brick();
+    for (fixed, words) in [
+        ("", "tie its interface columns"),
+        ("fixed = [{ nodes = [25], dofs = [\"uz\"] }]\n", "nothing in the file does"),
+    ] {
+        let job = format!(
+            "{fixed}interface = [{{ name = \"foot\", nodes = [1, 11, 31, 41] }}]\nmodel = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+             reduction = {{ method = \"herting\", modes = {{ count = 5 }} }}\n[write]\nsuperelement = \"x.supel\"\nrecovery = {{ nodes = [3, 7] }}\n"
+        );
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+        let found = supel(&["verify", &place.text("x.supel"), "--json"]).expect(ExitCode::Done).out;
+        let document: Value = serde_json::from_str(&found).expect("JSON");
+        let unvouched = document["unvouched"].as_array().expect("a list").iter();
+        let of_recovery = unvouched.clone().find(|unvouched| unvouched["field"] == "recovery").expect("recovery");
+        assert!(of_recovery["reason"].as_str().is_some_and(|reason| reason.contains(words)), "{of_recovery}");
+    }
+}
+
 #[test]
 fn a_file_or_a_job_that_is_not_there_is_an_error() {
     let place = reduced();

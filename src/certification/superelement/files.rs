@@ -63,7 +63,7 @@ impl ForeignSuperelement {
         let n_columns = basis.columns.len();
         let ReducedPair { stiffness, mass, dofs, notes } =
             ReducedPair::read([&files.stiffness, &files.mass], (duplicates, allowance))?;
-        let matrix = |input| ReducedMatrix::of(input, n_columns);
+        let matrix = |input| ReducedMatrix::of(input, (n_columns, dofs.is_some()));
         let notes = notes.iter().map(ToString::to_string).collect();
         Ok(Self { stiffness: matrix(stiffness)?, mass: matrix(mass)?, basis, dofs, notes })
     }
@@ -75,10 +75,12 @@ impl ForeignSuperelement {
 }
 
 impl ReducedMatrix {
-    fn of(input: MatrixInput, n_columns: usize) -> Result<Self> {
+    fn of(input: MatrixInput, (n_columns, has_named_rows): (usize, bool)) -> Result<Self> {
         let found = input.matrix.rows();
         if found != n_columns {
-            return Err(Error::ReducedSize { path: input.path, found, n_columns });
+            // Rows that are named are those that either matrix names.
+            let of = if has_named_rows { " by the names that K̂ and M̂ have together" } else { "" };
+            return Err(Error::ReducedSize { path: input.path, found, of, n_columns });
         }
         let mut values = Mat::zeros(n_columns, n_columns);
         input.matrix.iter().for_each(|(value, (row, column))| values[(row as usize, column as usize)] = *value);

@@ -329,7 +329,7 @@ fn matrices_of_another_size_are_refused() {
     let short = Mat::from_fn(135, 23, |i, j| foreign.basis[(i, j)]);
     Foreign { basis: short, ..foreign }.write(&place);
     let ended = certify(&place, "").expect(ExitCode::InputData);
-    assert!(ended.err.contains("E-REDUCED-SIZE") && ended.err.contains("found 24 rows"), "{}", ended.err);
+    assert!(ended.err.contains("E-REDUCED-SIZE") && ended.err.contains("found 24 rows –"), "{}", ended.err);
     // Frequencies are those of pairs.
     let ended = certify(&place, "--hz 1,2").expect(ExitCode::Usage);
     assert!(ended.err.contains("--reduced-stiffness"), "{}", ended.err);

@@ -9,13 +9,16 @@ use supel::sparse::Given;
 use super::{fixture, job, pair, stiffness};
 
 /// Files that hold K, or K and M, in doubles; of one that holds several matrices both are taken by their names alone.
-const FILES: [[&str; 2]; 26] = [
+const FILES: [[&str; 2]; 29] = [
     ["k_csr.npz", "m_csc.npz"],
     ["k_csc.npz", "m_csc.npz"],
     ["k_coo.npz", "m_csc.npz"],
     ["k_bsr.npz", "m_csc.npz"],
     ["k_bsr_wide.npz", "m_csc.npz"],
     ["k_dia.npz", "m_csc.npz"],
+    ["k_bsr_fortran.npz", "m_csc.npz"],
+    ["k_dia_fortran.npz", "m_csc.npz"],
+    ["k_coords_fortran.npz", "m_csc.npz"],
     ["k_reserve.npz", "m_csc.npz"],
     ["k_bsr_reserve.npz", "m_csc.npz"],
     ["dense.npz", "dense.npz"],
@@ -179,6 +182,13 @@ fn dof_maps_of_ansys_and_nastran() {
     let bulk = "BEGIN BULK\nSPOINT,20\nGRID,3,,0.,0.,0.\n";
     let error = of_map(write("a.bdf", bulk)).expect_err("seven rows");
     assert!(matches!(error, Error::DofCount { found: 7, n: 6, .. }), "{error}");
+    // A range is a few characters for as many points as it likes.
+    let points = of_map(write("b.bdf", "SPOINT,1,THRU,6\n")).expect("six scalar points");
+    assert_eq!(points.dofs.map(|dofs| dofs.len()), Some(6));
+    for range in ["SPOINT,1,THRU,9223372\n", "SPOINT,1,THRU,4\nSPOINT,11,THRU,13\n"] {
+        let error = of_map(write("c.bdf", range)).expect_err("more points than rows");
+        assert!(error.to_string().contains("no more points than the 6 rows of the matrices"), "{error}");
+    }
     let listed = "BEGIN SUPER 1\nEXTRN,1,123,7,12,20,0\n";
     assert_eq!(of_map(write("a.pch", listed)).expect("as EXTRN lists them").dofs, Some(labels(CHAIN)));
     for (text, words) in [

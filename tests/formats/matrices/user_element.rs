@@ -35,6 +35,23 @@ fn single(file: &Path) -> ReadSingle {
     matrix.read(&Allowance::of(None)).expect("a matrix")
 }
 
+/// The keyword says how many nodes there are where no comment lists them: the rows of a whole matrix have no names then.
+#[test]
+fn a_whole_matrix_without_a_list_of_nodes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("whole.mtx");
+    let head = "*USER ELEMENT,NODES=2,LINEAR,UNSYMM\n1,2\n2,1\n*MATRIX,TYPE=STIFFNESS\n";
+    std::fs::write(&path, format!("{head}4.,-2.,0.,-1.,\n4.,-2.5,7.,-1.5,\n4.\n")).expect("written");
+    let found = single(&path);
+    let expected = [[4.0, -1.0, 7.0], [-2.0, 4.0, -1.5], [0.0, -2.5, 4.0]];
+    for (i, row) in expected.iter().enumerate() {
+        for (j, value) in row.iter().enumerate() {
+            assert_eq!(found.input.matrix.get(i, j).copied().unwrap_or(0.0), *value, "{i} {j}");
+        }
+    }
+    assert!(found.dofs.is_none(), "{:?}", found.dofs);
+}
+
 /// CalculiX 2.20 condenses nothing here: what it wrote of the shaft of the crank are the rows of the shaft in the matrix of the whole.
 #[test]
 fn the_substructure_of_calculix_is_a_part_of_its_matrix() {
