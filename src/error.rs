@@ -3567,8 +3567,8 @@ pub enum Error {
         available: u64,
     },
     /// An allocation failed.
-    #[entry("E-OUT-OF-MEMORY", Resources, "free memory or reduce a smaller model")]
-    #[error("out of memory – {what} could not be allocated – free memory or reduce a smaller model")]
+    #[entry("E-OUT-OF-MEMORY", Resources, "free memory, use fewer threads or reduce a smaller model")]
+    #[error("out of memory – {what} could not be allocated – free memory, use fewer threads or reduce a smaller model")]
     OutOfMemory {
         /// What was to be allocated.
         what: &'static str,

@@ -200,7 +200,7 @@ fn say(missing: Missing, stage: &str, document: Document) {
     let (code, exit) = (NO_MEMORY.code(), NO_MEMORY.class() as u8);
     let mut text = Text { bytes: [0; 512], length: 0 };
     let message = format_args!(
-        "out of memory – {missing} could not be allocated in the stage `{stage}` – free memory or reduce a smaller model"
+        "out of memory – {missing} could not be allocated in the stage `{stage}` – free memory, use fewer threads or reduce a smaller model"
     );
     let _ = writeln!(text, "supel: error[{code}]: {message}");
     write_now(2, text.written());

@@ -33,8 +33,15 @@ impl Format for HarwellBoeing {
     fn sureness(&self, start: &FileStart<'_>) -> Sureness {
         let mut lines = start.head.split(|byte| *byte == b'\n').skip(2);
         let kind = lines.next().and_then(Kind::of);
-        let formats = lines.next().and_then(formats);
-        if kind.is_some() && formats.is_some() { Sureness::Certain } else { Sureness::Unlikely }
+        let line = lines.next().unwrap_or_default();
+        // A pattern has no format of values, and is refused for what it is.
+        let has_formats = match kind {
+            Some(Kind { letters: [b'P', ..], .. }) => {
+                bracketed(line).first().is_some_and(|word| Fields::of(word).is_some())
+            }
+            _ => formats(line).is_some(),
+        };
+        if kind.is_some() && has_formats { Sureness::Certain } else { Sureness::Unlikely }
     }
 }
 

@@ -20,7 +20,7 @@ use crate::sparse::Declared;
 const MAX_TEXT: u64 = 64;
 
 /// How NumPy calls the types of numbers that are read, without the mark of the order of bytes.
-const KINDS: [(&str, Kind); 12] = [
+const KINDS: [(&str, Kind); 11] = [
     ("f8", Kind::F64),
     ("f4", Kind::F32),
     ("f2", Kind::F16),
@@ -32,7 +32,6 @@ const KINDS: [(&str, Kind); 12] = [
     ("u2", Kind::U16),
     ("u4", Kind::U32),
     ("u8", Kind::U64),
-    ("b1", Kind::U8),
 ];
 
 /// How the numbers of an array of this type are stored; none of other types.

@@ -39,7 +39,7 @@ pub(super) fn picked<T>(
                 let (path, place, found) = (path.to_owned(), name(), found.to_owned());
                 return Err(Error::MatrixUnread { path, format: FORMAT, place, found, expected: EXPECTED });
             }
-            _ => others.push(format!("{} ({})", array.name, array.class.name())),
+            (unread, _) => others.push(format!("{} ({})", array.name, unread.unwrap_or_else(|| array.class.name()))),
         }
         position += 1;
         Ok(Step::Skip)

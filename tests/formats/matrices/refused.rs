@@ -151,8 +151,32 @@ fn harwell_boeing_of_other_kinds() {
     {
         assert_says(&altered("k.rsa", "RSA", letters), "E-MATRIX-UNREAD", &[&[letters], words].concat());
     }
+    // Without values there is no format of them.
+    let lines = ["a pattern", "2 1 1 0", "PSA           3 3 5 0", "(16I4)          (16I4)", "   1   3   5   6"];
+    let pattern = format!("{}\n   1   2   2   3   3\n", lines.join("\n"));
+    assert_says(&error_of("p.psa", pattern), "E-MATRIX-UNREAD", &["PSA", "pattern"]);
     assert_says(&altered("k.rsa", "1.6666666666666", "1.66666x6666666"), "E-MATRIX-FORMAT", &["line 9", "field 1"]);
     assert_says(&altered("k.rsa", "        12        14", "        14        12"), "E-MATRIX-POINTER", &[]);
+}
+
+/// Matrices that no model has are called what they are, whether one is named or not.
+#[test]
+fn complex_matrices_and_marks_are_named() {
+    let dense = std::fs::read(fixture("dense.mat")).expect("a fixture");
+    let flags = [6, 0, 0, 0, 8, 0, 0, 0, 6, 0];
+    let mut complex = dense.clone();
+    let places: Vec<usize> = (0..dense.len() - flags.len()).filter(|at| dense[*at..].starts_with(&flags)).collect();
+    assert_eq!(places.len(), 2, "stiffness and mass");
+    places.iter().for_each(|at| complex[at + 9] |= 8);
+    assert_says(
+        &error_of("c.mat", complex),
+        "E-NO-MATRIX",
+        &["stiffness (a complex matrix)", "mass (a complex matrix)"],
+    );
+    let header = "{'descr': '|b1', 'fortran_order': False, 'shape': (2, 2), }";
+    let mut marks = [b"\x93NUMPY\x01\x00".as_slice(), &(header.len() as u16).to_le_bytes(), header.as_bytes()].concat();
+    marks.extend([1, 0, 0, 1]);
+    assert_says(&error_of("b.npy", marks), "E-MATRIX-UNREAD", &["b1"]);
 }
 
 /// Whole numbers of files that declare them are kept to the last digit, or refused.
