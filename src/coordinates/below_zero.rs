@@ -7,12 +7,18 @@ use super::zeros::{Whole, Zeros};
 use crate::eigen::zero;
 use crate::error::{Error, Result};
 
-/// The motions without energy, where nothing is below zero. Coordinates that are off, by rounding or more, strain K: what that costs is above zero. A motion below zero by more than roundings of K
-/// and than what practice takes for free is a negative spring, where a count half way to it says so.
+/// The motions without energy of a K in which no motion by the coordinates has negative energy.
+///
+/// Coordinates that are off, by rounding or more, strain K, and that takes positive energy. A motion below zero by more than roundings of K and
+/// than what practice takes for free is that of a negative spring, where a count half way to it says so.
 ///
 /// # Errors
 /// [`Error::NegativeRigidEnergy`] with the dof that the force is largest at.
-pub(super) fn refused(motions: &Motions<'_>, (doubts, free): (&[Doubt], &[Free]), whole: &Whole<'_>) -> Result<Zeros> {
+pub(super) fn zeros_unless_negative(
+    motions: &Motions<'_>,
+    (doubts, free): (&[Doubt], &[Free]),
+    whole: &Whole<'_>,
+) -> Result<Zeros> {
     let zeros = whole.zeros()?;
     for doubt in doubts {
         let Some([energy, noise]) = free[doubt.body].below_zero else { continue };

@@ -71,7 +71,7 @@ pub(super) fn settled(
                 },
             }
         }
-        false => case.rotations(&below_zero::refused(motions, (doubts, &case.free), &whole)?),
+        false => case.rotations(&below_zero::zeros_unless_negative(motions, (doubts, &case.free), &whole)?),
     }
 }
 

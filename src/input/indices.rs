@@ -44,7 +44,7 @@ impl Indices {
         let is_in_rest = |(position, _): &(usize, i64)| *position >= at;
         rest.misfit = match self.misfit.take_if(|misfit| is_in_rest(misfit)) {
             Some((position, index)) => Some((position - at, index)),
-            None => rest.numbers.iter().position(|number| *number == u32::MAX).map(|at| (at, i64::from(u32::MAX))),
+            None => first_without_value(&rest.numbers),
         };
         rest
     }
@@ -53,10 +53,8 @@ impl Indices {
     pub(super) fn into_alternating(self) -> [Self; 2] {
         [0, 1].map(|first| {
             let numbers: Vec<u32> = self.numbers.iter().skip(first).step_by(2).copied().collect();
-            // Where the other half has the first misfit, that of this one is not known but for its place.
             let own = self.misfit.filter(|(position, _)| position % 2 == first).map(|(at, index)| (at / 2, index));
-            let placed = || numbers.iter().position(|number| *number == u32::MAX).map(|at| (at, i64::from(u32::MAX)));
-            let misfit = own.or_else(placed);
+            let misfit = own.or_else(|| first_without_value(&numbers));
             Self { numbers, misfit }
         })
     }
@@ -80,6 +78,11 @@ impl Indices {
             }
         }
     }
+}
+
+/// The first misfit of indices that were parted from others, which may have had the one whose value is known.
+fn first_without_value(numbers: &[u32]) -> Option<(usize, i64)> {
+    numbers.iter().position(|number| *number == u32::MAX).map(|at| (at, i64::from(u32::MAX)))
 }
 
 impl FromIterator<i64> for Indices {

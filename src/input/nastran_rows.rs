@@ -17,6 +17,7 @@ use crate::number::counted;
 
 /// Directions of a grid point.
 const DIRECTIONS: std::ops::RangeInclusive<u8> = 1..=6;
+
 /// EXTRN, GRID and SPOINT of bulk data and punch files.
 pub(super) struct NastranRows;
 

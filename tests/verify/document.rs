@@ -64,15 +64,16 @@ fn recovered_rows_of_a_held_component_are_not_said_to_be_tied() {
         ("fixed = [{ nodes = [25], dofs = [\"uz\"] }]\n", "nothing in the file does"),
     ] {
         let job = format!(
-            "{fixed}interface = [{{ name = \"foot\", nodes = [1, 11, 31, 41] }}]\nmodel = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
+            "{fixed}interface = [{{ name = \"foot\", nodes = [1, 11, 31, 41] }}]\n\
+             model = {{ stiffness = \"K.mtx\", mass = \"M.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\" }}\n\
              reduction = {{ method = \"herting\", modes = {{ count = 5 }} }}\n[write]\nsuperelement = \"x.supel\"\nrecovery = {{ nodes = [3, 7] }}\n"
         );
         place.write("job.toml", job.as_bytes());
         supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
         let found = supel(&["verify", &place.text("x.supel"), "--json"]).expect(ExitCode::Done).out;
         let document: Value = serde_json::from_str(&found).expect("JSON");
-        let unvouched = document["unvouched"].as_array().expect("a list").iter();
-        let of_recovery = unvouched.clone().find(|unvouched| unvouched["field"] == "recovery").expect("recovery");
+        let mut unvouched = document["unvouched"].as_array().expect("a list").iter();
+        let of_recovery = unvouched.find(|unvouched| unvouched["field"] == "recovery").expect("recovery");
         assert!(of_recovery["reason"].as_str().is_some_and(|reason| reason.contains(words)), "{of_recovery}");
     }
 }

@@ -63,7 +63,9 @@ impl ForeignSuperelement {
         let n_columns = basis.columns.len();
         let ReducedPair { stiffness, mass, dofs, notes } =
             ReducedPair::read([&files.stiffness, &files.mass], (duplicates, allowance))?;
-        let matrix = |input| ReducedMatrix::of(input, (n_columns, dofs.is_some()));
+        // Rows that are named are those that either matrix names.
+        let of_rows = if dofs.is_some() { " by the names that K̂ and M̂ have together" } else { "" };
+        let matrix = |input| ReducedMatrix::of(input, (n_columns, of_rows));
         let notes = notes.iter().map(ToString::to_string).collect();
         Ok(Self { stiffness: matrix(stiffness)?, mass: matrix(mass)?, basis, dofs, notes })
     }
@@ -75,11 +77,9 @@ impl ForeignSuperelement {
 }
 
 impl ReducedMatrix {
-    fn of(input: MatrixInput, (n_columns, has_named_rows): (usize, bool)) -> Result<Self> {
+    fn of(input: MatrixInput, (n_columns, of): (usize, &'static str)) -> Result<Self> {
         let found = input.matrix.rows();
         if found != n_columns {
-            // Rows that are named are those that either matrix names.
-            let of = if has_named_rows { " by the names that K̂ and M̂ have together" } else { "" };
             return Err(Error::ReducedSize { path: input.path, found, of, n_columns });
         }
         let mut values = Mat::zeros(n_columns, n_columns);
