@@ -429,6 +429,21 @@ fn dense_arrays_are_read_in_half_precision_and_in_either_order_of_bytes() {
     assert!(matches!(error, Error::Hdf5Type { expected: "real numbers", .. }), "{error}");
 }
 
+/// A sparse matrix of MATLAB has doubles, or marks in a byte each.
+#[test]
+fn marks_of_matlab_are_no_ones() {
+    let (_folder, path) = file_with(|f| {
+        let marks = f.create_group("K").unwrap();
+        put_attr(&marks, "MATLAB_sparse", &[2_u64]);
+        put(&marks, "jc", &[0_u64, 1, 2]);
+        put(&marks, "ir", &[0_u64, 1]);
+        put(&marks, "data", &[1_u8, 1]);
+    });
+    let error = stiffness(&path, None).unwrap_err();
+    assert!(matches!(&error, Error::Hdf5Type { object, .. } if object == "/K/data"), "{error}");
+    assert!(error.to_string().contains("marks of true and false"), "{error}");
+}
+
 #[test]
 fn a_matrix_that_is_not_square_or_empty_is_refused() {
     let (_folder, path) = file_with(|f| {

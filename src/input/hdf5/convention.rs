@@ -104,7 +104,7 @@ fn read_matlab(group: &Group<'_>) -> Result<(Compressed, u32)> {
     let pointers = group.dataset("jc")?;
     let (indices, reals) = match (group.find_dataset("ir")?, group.find_dataset("data")?) {
         (None, None) => (Indices::default(), None),
-        _ => (group.dataset("ir")?.indices(0)?, Some(group.dataset("data")?.reals()?)),
+        _ => (group.dataset("ir")?.indices(0)?, Some(group.dataset("data")?.reals_of_matlab()?)),
     };
     let pointers = pointers.integers()?;
     let n_cols = pointers.len().saturating_sub(1) as u64;

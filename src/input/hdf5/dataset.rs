@@ -65,6 +65,19 @@ impl<'a> Dataset<'a> {
         numbers::reals(&self.dataset).map_err(|e| self.refused(e, "real numbers"))
     }
 
+    /// All values as real numbers, as MATLAB stores them: single bytes are marks of true and false to it.
+    ///
+    /// # Errors
+    /// [`Error::Hdf5Type`] for marks; what [`Self::reals`] returns.
+    pub(super) fn reals_of_matlab(&self) -> Result<Reals> {
+        match self.descriptor()? {
+            Some(TypeDescriptor::Unsigned(IntSize::U1)) => {
+                Err(self.refused(Refusal::Type("marks of true and false".to_owned()), "real numbers"))
+            }
+            _ => self.reals(),
+        }
+    }
+
     /// All values as whole numbers, in storage order.
     pub(super) fn integers(&self) -> Result<Vec<i64>> {
         if self.checked_len()? == 0 {

@@ -103,6 +103,38 @@ fn bars_of_poor_shapes_hold_the_nearest_frequency() {
     }
 }
 
+/// The last shape of a result, mixed with the next mode above it: that one is no pair, and a count alone tells where it may be. With a part a of
+/// it the quotient is off by a²(λ′ − ρ) and its residual is a²(1 − ρ/λ′)(λ′ − ρ), less by 1 − ρ/λ′: a quarter at ρ/λ′ = ¾.
+#[test]
+fn bars_at_the_end_of_a_result_know_that_others_lie_above() {
+    let model = oblong(0.0);
+    let all = lowest(&model, 40);
+    let last: Vec<usize> = (7..32).filter(|at| (1.12..1.5).contains(&(all.hertz[*at + 1] / all.hertz[*at]))).collect();
+    assert!(last.len() > 2, "{last:?}");
+    for at in last {
+        for share in [0.01, 0.05, 0.1, 0.2] {
+            let mut result = Pairs { hertz: all.hertz[..=at].to_vec(), shapes: all.shapes[..=at].to_vec() };
+            result.shapes[at] = result.shapes[at].iter().zip(&all.shapes[at + 1]).map(|(a, b)| a + share * b).collect();
+            assert_true(&answer(&model, &result), &all);
+        }
+    }
+}
+
+/// The last shape of a result is one of two modes of one frequency with a little of the next one, which puts its own frequency above that of both:
+/// what is stated of it tells that the result ends inside of the two.
+#[test]
+fn a_poor_shape_that_states_the_frequency_of_a_pair_ends_the_result_inside_of_it() {
+    let model = oblong(0.0);
+    let all = lowest(&model, 40);
+    for at in [8, 12] {
+        let mut result = turned(&all, (at + 1, 0.0, 17));
+        result.shapes[at] = result.shapes[at].iter().zip(&all.shapes[at + 2]).map(|(a, b)| a + 0.03 * b).collect();
+        let found = answer(&model, &result);
+        assert!(missing(&found).is_empty(), "{at}: {found}");
+        assert!(found["notes"].to_string().contains("ends inside a group"), "{at}: {found}");
+    }
+}
+
 /// A result of any number of digits that ends with one of two modes of one frequency does so without anybody's fault.
 #[test]
 fn a_result_of_few_digits_ends_inside_of_a_pair() {
