@@ -5,8 +5,10 @@ use supel::cli::ExitCode;
 use supel::eigen::Modes;
 use supel::job::Boundary;
 use supel::verification::{Enclosures, enclosures};
+use supel_models::transform::in_local_frames;
 use supel_models::{
-    Ends, Material, Model, bar, bar_spectrum, brick, known, ring, ring_spectrum, spring, spring_spectrum,
+    Ends, Inertia, Material, Model, Section, bar, bar_spectrum, brick, frame, known, ring, ring_spectrum, spring,
+    spring_spectrum,
 };
 use supel_testing::{chain, place};
 
@@ -289,4 +291,110 @@ fn intervals_know_the_rounding_of_patches() {
             }
         }
     }
+}
+
+/// A frame of thin beams, whose terms are 10⁸ times the energy of its first modes.
+fn thin_frame() -> Model {
+    let nodes = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [1.4, 0.9, 0.2], [0.6, 1.2, 0.9], [0.1, 0.5, 1.3]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4]];
+    frame(&nodes, &edges, &Section::round(1e-3), &Material::STEEL_SI, Inertia::Consistent)
+}
+
+/// Free modes do not depend on axes: those of the numbers in the files are those of the matrices turned to the axes of the model.
+#[test]
+fn intervals_know_the_rounding_of_rows_that_were_turned() {
+    const ASKEW: [[f64; 3]; 3] =
+        [[2.0 / 3.0, 2.0 / 3.0, 1.0 / 3.0], [-2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0], [1.0 / 3.0, -2.0 / 3.0, 2.0 / 3.0]];
+    let sound = thin_frame();
+    let model = in_local_frames(&sound, &ASKEW, |_| true);
+    let place = Place::with(&model);
+    let axes = |label: &i64| format!("{label},2,2,1,-2,1,2\n");
+    let table = "node,x1,x2,x3,y1,y2,y3\n".to_owned() + &model.labels.iter().map(axes).collect::<String>();
+    place.write("frames.csv", table.as_bytes());
+    let frames = format!("--interface hub=1 --method herting --modes 6 --frames {}", place.text("frames.csv"));
+    let turned = prove(&model, &place.model_flags(), &place, &frames);
+    let rows = "--interface hub=rows:0,1,2,3,4,5 --method herting --modes 6";
+    let as_read = prove(&model, &place.matrix_flags(), &place, rows);
+    assert_agree(&turned, &as_read);
+    // What is left out across a beam, as rounding of the stiffness along it, counts with all entries.
+    assert!(turned.width() < 1e-4 && as_read.width() < turned.width(), "{:e} {:e}", as_read.width(), turned.width());
+}
+
+/// A chain whose springs come in parts that add up to one exactly, and not in double precision.
+#[test]
+fn intervals_know_the_rounding_of_entries_that_were_added_up() {
+    let n = 200;
+    let (mut entries, mut n_off) = (Vec::new(), 0);
+    for (row, col, value) in spring(n, Ends::Free).stiffness {
+        let part = |k: u32| value * (0.2 + 0.03 * f64::from((row + col) * 7 + 3 * k).sin());
+        let mut parts: Vec<f64> = (0..6).map(part).collect();
+        // Their sum, and what it has lost (Knuth), exactly: the rest of the value comes before the loss.
+        let (mut sum, mut lost) = (0.0, 0.0);
+        for part in &parts {
+            let (before, after) = (sum, sum + part);
+            lost += (before - (after - (after - before))) + (part - (after - before));
+            sum = after;
+        }
+        parts.extend([value - sum, -lost]);
+        parts.rotate_left(3);
+        n_off += i32::from(parts.iter().fold(0.0, |sum, part| sum + part) != value);
+        entries.extend(parts.into_iter().map(|part| format!("{} {} {part:e}\n", row + 1, col + 1)));
+    }
+    assert!(n_off > 20, "{n_off}");
+    let place = Place::with(&spring(n, Ends::Free));
+    let text =
+        format!("%%MatrixMarket matrix coordinate real general\n{n} {n} {}\n{}", entries.len(), entries.concat());
+    place.write("K.mtx", text.as_bytes());
+    let rest = "--interface ends=rows:0,199 --method herting --modes 6";
+    let proved = prove(&spring(n, Ends::Free), &place.matrix_flags(), &place, rest);
+    assert_holds(&proved, &spring_spectrum(n, Ends::Free)[1..], 0.0);
+}
+
+/// A mass away from a node is that of a node there that constraints tie to it.
+#[test]
+fn intervals_know_the_rounding_of_added_masses() {
+    let sound = thin_frame();
+    let ([x, y, z], mass) = ([0.37, -0.21, 0.73], 1e4);
+    let job = |place: &Place, rest: &str| {
+        let text = format!(
+            "interface = [{{ name = \"hub\", nodes = [1] }}]\nreduction = {{ method = \"craig-bampton\", modes = {{ count = 5 }} }}\n\
+             run = {{ certify = \"full\" }}\nwrite = {{ superelement = \"x.supel\" }}\n{rest}"
+        );
+        place.write("job.toml", text.as_bytes());
+        vec![place.text("job.toml")]
+    };
+    let model = "stiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n";
+    let added = Place::with(&sound);
+    let rest = format!("added_mass = [{{ node = 5, mass = {mass}, offset = [{x}, {y}, {z}] }}]\n[model]\n{model}");
+    let flags = job(&added, &rest);
+    let added = prove(&sound, &flags, &added, "");
+
+    let mut with_node = sound.clone();
+    let at = [0, 1, 2].map(|axis| sound.nodes[4][axis] + [x, y, z][axis]);
+    with_node.nodes.push(at);
+    with_node.labels.push(6);
+    for direction in 0..3 {
+        with_node.mass.push((with_node.n as u32, with_node.n as u32, mass));
+        with_node.dofs.push((6, direction));
+        with_node.n += 1;
+    }
+    // u₆ = u₅ + θ₅ × r
+    let row_of = |direction: u8| sound.dofs.iter().position(|dof| *dof == (5, direction)).expect("a row") + 1;
+    let levers = [[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]];
+    let mut terms = Vec::new();
+    for (axis, levers) in levers.iter().enumerate() {
+        terms.push(format!("{} {} 1\n", axis + 1, sound.n + axis + 1));
+        terms.push(format!("{} {} -1\n", axis + 1, row_of(axis as u8)));
+        let rotations = levers.iter().enumerate().filter(|(_, lever)| **lever != 0.0);
+        terms
+            .extend(rotations.map(|(about, lever)| format!("{} {} {:e}\n", axis + 1, row_of(3 + about as u8), -lever)));
+    }
+    let tied = Place::with(&with_node);
+    let n = with_node.n;
+    let text = format!("%%MatrixMarket matrix coordinate real general\n3 {n} {}\n{}", terms.len(), terms.concat());
+    tied.write("ties.mtx", text.as_bytes());
+    let flags =
+        job(&tied, &format!("[model]\n{model}constraints = \"ties.mtx\"\nconstraints_to_ground = \"accept\"\n"));
+    let tied = prove(&with_node, &flags, &tied, "");
+    assert_agree(&added, &tied);
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use faer::{Mat, MatRef};
-use supel_runtime::{Coordinate, Flag, Superelement};
+use supel_runtime::{Coordinate, Direction, Flag, Superelement};
 
 use super::version::kept_job;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
@@ -14,6 +14,7 @@ use crate::job::{Boundary, Job, MassOf, Method};
 use crate::plan::Plan;
 use crate::rigid::n_passing;
 use crate::verification::check::Limits;
+use crate::verification::force;
 use crate::verification::limits::{self, Judged, Known, LARGEST_EXCUSE};
 
 /// A superelement with its matrices unpacked.
@@ -61,22 +62,33 @@ pub(super) struct ModelNoise {
     pub(super) answers: f64,
     /// In an inertia, relative to that of the columns.
     pub(super) inertia: f64,
+    /// The limits of the relative difference of two frequencies of one mode.
+    pub(super) frequency: Judged,
 }
 
-/// Rounding in an energy, by whose error bars it is known.
+/// What rounding makes of a file, as its own error bars tell.
+#[derive(Clone, Copy, Debug)]
+struct FileNoise {
+    /// In an energy, relative to the first elastic eigenvalue.
+    energy: f64,
+    /// The largest error bar of an eigenvalue, relative to that eigenvalue.
+    relative_bar: f64,
+}
+
+/// Rounding in energies and frequencies, by whose error bars it is known.
 #[derive(Clone, Copy, Debug)]
 enum Noise {
     /// By the error bars of modes that were found anew, and by static answers that were.
     OfModel(ModelNoise),
     /// By the error bars that the file states.
-    OfFile(f64),
+    OfFile(FileNoise),
 }
 
 impl Noise {
     fn size(self) -> f64 {
         match self {
             Self::OfModel(noise) => noise.energy,
-            Self::OfFile(noise) => noise,
+            Self::OfFile(noise) => noise.energy,
         }
     }
 }
@@ -213,10 +225,16 @@ impl<'a> Content<'a> {
         let judged = limits::of_force(self.noise.size(), 1.0);
         match self.noise {
             Noise::OfFile(noise) if self.recorded_limit("M-12") > judged.limits.value() => {
-                limits::of_unexplained_force(noise.max(self.recorded_limit("M-12") / NOISE_FACTOR))
+                limits::of_unexplained_force(noise.energy.max(self.recorded_limit("M-12") / NOISE_FACTOR))
             }
             _ => judged,
         }
+    }
+
+    /// The scales of such a force, 1/√(K̂ + λ₁M̂)_ii.
+    pub(super) fn force_scales(&self) -> Vec<f64> {
+        let parts = (self.k.as_ref(), self.m.as_ref(), self.u.as_ref());
+        force::scales(parts, self.first, &directions(self.superelement))
     }
 
     /// Limits of what a static answer leaves of its load, in K̂ and relative to its terms.
@@ -255,15 +273,27 @@ impl<'a> Content<'a> {
         limits::of_unexplained_force(self.noise.size().max(recorded / NOISE_FACTOR))
     }
 
+    /// The limit on record of the energy that damping puts into a motion, the last that a reduction judges of damping: it knows the digits of
+    /// its matrices.
+    pub(super) fn recorded_damping_energy(&self) -> f64 {
+        let checks = self.superelement.metadata().verification.checks.iter();
+        checks.rev().find(|check| check.id == "M-28").map_or(0.0, |check| check.limit)
+    }
+
     /// The largest limit on record of the checks of one identifier.
     fn recorded_limit(&self, id: &str) -> f64 {
         let checks = self.superelement.metadata().verification.checks.iter().filter(|check| check.id == id);
         checks.fold(0.0, |most, check| most.max(check.limit))
     }
 
-    /// Limits of the relative difference of two frequencies of one mode.
+    /// Limits of the relative difference of two frequencies of one mode. The noise of energies is relative to the first elastic mode of the
+    /// free component and is nothing of the kind: a mode with part of the interface held may lie far below that one.
     pub(super) fn frequency_limits(&self) -> Judged {
-        limits::of_frequency(self.noise.size(), 1.0)
+        match self.noise {
+            Noise::OfModel(noise) => noise.frequency,
+            // All that the bars of a file tell counts as its digits, as for energies.
+            Noise::OfFile(noise) => limits::of_frequency(noise.relative_bar, 1.0),
+        }
     }
 
     /// A difference of numbers that rounding alone may tell apart.
@@ -297,6 +327,15 @@ pub(super) fn coordinate_name(superelement: &Superelement, coordinate: usize) ->
     }
 }
 
+/// The direction of each coordinate; none of those that belong to no node of the interface.
+pub(super) fn directions(superelement: &Superelement) -> Vec<Option<Direction>> {
+    let of = |coordinate: &Coordinate| match coordinate {
+        Coordinate::Interface { direction, .. } => Some(*direction),
+        _ => None,
+    };
+    superelement.metadata().coordinates.iter().map(of).collect()
+}
+
 /// Whether a file has a mass.
 pub(super) fn has_mass(superelement: &Superelement) -> bool {
     !superelement.metadata().flags.contains(&Flag::StiffnessOnly)
@@ -305,17 +344,10 @@ pub(super) fn has_mass(superelement: &Superelement) -> bool {
 /// A diagonal mass with which the coordinates of a stiffness have frequencies near one. Where a body has no coordinates but those of its
 /// motions as a whole, the rounding that K̂ has instead of nothing is no size: they get the largest one.
 pub(super) fn unit_mass(stiffness: &Mat<f64>, motions: MatRef<'_, f64>) -> Mat<f64> {
-    /// Of a coordinate, beyond what rigid-body motion moves of it: digits of Û.
-    const ALONE: f64 = 1e-6;
     let r = stiffness.nrows();
-    let mut left = Mat::<f64>::identity(r, r);
-    if (1..=r).contains(&motions.ncols()) {
-        let shares = dense::least_squares(motions, left.as_ref());
-        dense::add_product(left.as_mut(), -1.0, motions, shares.as_ref());
-    }
-    let is_carried = |i: usize| dense::norm(dense::column(left.as_ref(), i)) < ALONE;
+    let is_carried = force::carried(motions);
     let largest = stiffness.norm_max().max(f64::MIN_POSITIVE);
-    let of = |i: usize| if stiffness[(i, i)] > 0.0 && !is_carried(i) { stiffness[(i, i)] } else { largest };
+    let of = |i: usize| if stiffness[(i, i)] > 0.0 && !is_carried[i] { stiffness[(i, i)] } else { largest };
     Mat::from_fn(r, r, |i, j| if i == j { of(i) } else { 0.0 })
 }
 
@@ -344,9 +376,8 @@ pub(super) fn boundary(superelement: &Superelement) -> Boundary {
     }
 }
 
-/// The noise of energies relative to the first elastic one, by the bars that the file states. No file is written with a frequency that
-/// is unknown, and a bar that says so excuses nothing.
-fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
+/// Noise by the bars that the file states. No file is written with a frequency that is unknown, and a bar that says so excuses nothing.
+fn by_own_bars(superelement: &Superelement, first: f64) -> FileNoise {
     // Modes that the interface spans are no coordinates and have bars all the same.
     let known = superelement.metadata().named_columns().filter_map(|coordinate| {
         let ((_, frequency_hz), bar) = (coordinate.mode()?, coordinate.error_bar_hz()?);
@@ -354,5 +385,7 @@ fn by_own_bars(superelement: &Superelement, first: f64) -> f64 {
         let known = Known { lambda: omega * omega, relative_bar: bar_of_lambda(bar, frequency_hz) };
         (bar <= limits::UNKNOWN * frequency_hz).then_some(known)
     });
-    limits::noise(known, first)
+    let known: Vec<Known> = known.collect();
+    let relative_bar = known.iter().map(|known| known.relative_bar).fold(0.0, f64::max);
+    FileNoise { energy: limits::noise(known, first), relative_bar }
 }

@@ -9,7 +9,7 @@ use crate::dense::{self, unpacked};
 use crate::error::{Error, Result};
 use crate::job::{Job, RigidMotionDamping};
 use crate::verification::check::{Check, Limits};
-use crate::verification::damping::{Damped, checks};
+use crate::verification::damping::{Damped, Judging, checks};
 
 /// M-28: what damping does, and that it is what the job kept in the file makes of the other matrices.
 ///
@@ -21,18 +21,22 @@ pub(super) fn of_file(content: &Content<'_>) -> Result<Vec<Check>> {
     let made = job.map(|job| made(content, job)).transpose()?;
     let known = made.iter().flatten().next();
     let sizes = known.map_or_else(|| dense::absolute(stored.as_ref()), |made| made.sizes.clone());
+    let scales = content.force_scales();
     let damped = Damped {
         damping: stored.as_ref(),
         sizes: sizes.as_ref(),
         stiffness_share: known.map_or(0.0, |made| made.stiffness_share),
-        stiffness: content.k.as_ref(),
-        mass: content.m.as_ref(),
+        scales: &scales,
         motions: content.u.as_ref(),
-        first: content.first,
     };
     let rigid_motion = content.job().map_or(RigidMotionDamping::Refuse, Job::rigid_motion);
     let name = |mode: usize, at: usize| format!("rigid-body mode {}, {}", mode + 1, content.name_of(at));
-    let mut all = checks(damped, (content.damping_force_limits(), rigid_motion), &name)?;
+    let judging = Judging {
+        of_force: content.damping_force_limits(),
+        of_digits: content.recorded_damping_energy(),
+        rigid_motion,
+    };
+    let mut all = checks(damped, judging, &name)?;
     all.extend(made.map(|made| sum(content, made.as_ref(), &stored)));
     Ok(all)
 }

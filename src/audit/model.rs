@@ -52,7 +52,7 @@ use crate::rigid::{self, RigidBodyModes, RigidSource};
 use crate::rubin::rank_or_attachment;
 use crate::verification::Evidence;
 use crate::verification::check::{Check, Limits, Verdict};
-use crate::verification::limits::energy_noise;
+use crate::verification::limits::{self, energy_noise};
 
 use alignment::{Combination, Freedom, combination};
 use asked::AskedModes;
@@ -173,6 +173,7 @@ impl<'a> Reference<'a> {
             energy: self.noise,
             answers: self.projected.error_of_answers(),
             inertia: self.projected.rounding_of_inertia(),
+            frequency: limits::of_frequencies(&self.asked.modes, self.partition),
         }
     }
 

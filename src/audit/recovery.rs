@@ -12,6 +12,7 @@ use super::content::Content;
 use crate::dense::{self, NOISE_FACTOR, unpacked};
 use crate::model::Site;
 use crate::verification::check::{Check, Limits};
+use crate::verification::limits::NOT_CARRIED;
 
 /// Whether rigid-body motion ties recovered rows: where it is the six unit motions.
 pub(super) fn is_tied(superelement: &Superelement) -> bool {
@@ -62,7 +63,7 @@ pub(super) fn rigid_motion(content: &Content<'_>) -> Option<Check> {
         equation: "max |WÛ − motion of a point|, translations as they are, rotations over the distance",
         value: worst.0,
         limits: limits.capped(1e-4, 0.0),
-        fail_above: NOISE_FACTOR * limits.capped(1e-4, 0.0).value(),
+        fail_above: (NOISE_FACTOR * limits.capped(1e-4, 0.0).value()).max(NOT_CARRIED),
         worst: worst.1,
     })
 }

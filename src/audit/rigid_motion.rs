@@ -86,8 +86,8 @@ pub(super) fn declaration(content: &Content<'_>) -> Option<Check> {
 /// M-12: K̂ Û makes no force, as the reduction measures it.
 pub(super) fn null_space(content: &Content<'_>) -> Check {
     let name = |mode: usize, at: usize| format!("rigid-body mode {}, {}", mode + 1, content.name_of(at));
-    let parts = (content.k.as_ref(), content.m.as_ref(), content.u.as_ref());
-    force::of_rigid_motion(parts, content.first, content.force_limits(), &name)
+    let parts = (content.k.as_ref(), content.u.as_ref());
+    force::of_rigid_motion(parts, &content.force_scales(), content.force_limits(), &name)
 }
 
 /// M-05: what the stiffest rigid-body motion costs, relative to the first elastic mode.

@@ -73,7 +73,7 @@ pub(super) fn clear_rounding(
 }
 
 /// Sets inertial loads on the interior to zero that are rounding: Σ l_i² / M_ii at most (10 ε)² of `terms`, |u|ᵀ|M||u| of each motion.
-pub(super) fn clear_unloaded(partition: &Partition, terms: &[f64], mut loads: MatMut<'_, f64>) {
+pub(crate) fn clear_unloaded(partition: &Partition, terms: &[f64], mut loads: MatMut<'_, f64>) {
     let mass = partition.internal().mass.diagonal();
     for (j, terms) in terms.iter().enumerate() {
         let load = dense::column_mut(loads.as_mut(), j);

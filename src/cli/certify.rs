@@ -20,7 +20,6 @@ use crate::error::Result;
 use crate::input::{self, ValueSource};
 use crate::job::{Job, MatrixJob};
 use crate::memory_forecast::Resources;
-use crate::report::JunitWarnings;
 use crate::verification::check::Verdict;
 
 pub(super) fn run(command: &CertifyCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
@@ -47,18 +46,15 @@ pub(super) fn run(command: &CertifyCommand, pipeline: Pipeline, terminal: &mut T
     let certify = || (pipeline.certify)(job, &command.files, command.band, (resources, &mut stage_line));
     let report = threads.install(certify).map_err(|error| rehearsed.judge(error))?;
     drop(stage_line);
-    let warnings = match command.strictness {
-        Strictness::Normal => JunitWarnings::Pass,
-        Strictness::Strict => JunitWarnings::Fail,
-    };
+    let reservations = command.strictness.reservations();
     let mut staged = Outputs::new(&own);
-    let html = command.html.iter().map(|path| (path, report.to_html()));
-    let junit = command.junit.iter().map(|path| (path, report.to_junit(warnings)));
+    let html = command.html.iter().map(|path| (path, report.to_html(reservations)));
+    let junit = command.junit.iter().map(|path| (path, report.to_junit(reservations)));
     for (path, text) in html.chain(junit) {
         staged.stage(path, text.as_bytes())?;
     }
     let answer = match command.answer {
-        Answer::Text => Some(report.to_text(terminal.paint)),
+        Answer::Text => Some(report.to_text(reservations, terminal.paint)),
         Answer::Json => Some(report.to_json()?),
         Answer::Nothing => None,
     };

@@ -1,6 +1,7 @@
 //! How a command that judges answers: what stdout carries, and whether warnings count.
 
 use crate::job::{Duplicates, Job};
+use crate::report::Reservations;
 
 /// What stdout carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +37,14 @@ impl From<bool> for Strictness {
 }
 
 impl Strictness {
+    /// What a report says of warnings.
+    pub(super) fn reservations(self) -> Reservations {
+        match self {
+            Self::Normal => Reservations::Accepted,
+            Self::Strict => Reservations::Refused,
+        }
+    }
+
     /// A job as its files are read: strictly, matrices whose entries repeat a position are refused.
     pub(super) fn reading(self, mut job: Job) -> Job {
         if self == Self::Strict {

@@ -113,11 +113,20 @@ fn loads<'a>(path: &'a Path, command: &RecoverCommand, superelement: &'a Superel
         }
         (Some(field), Some(of_file)) => sheet.with_gravity(of_file, field),
         (Some(_), None) => {
-            return Err(lacking(&command.file, "loads of gravity", "--gravity", "model.dofs and model.nodes"));
+            return Err(lacking(&command.file, "loads of gravity", "--gravity", key_of_gravity(superelement)));
         }
     };
     let inertia = if has_acceleration { "" } else { ", without those of inertia," };
     Ok(Asked { flag: "--loads", path, content: format!("loads on the interface{inertia}"), sheet: Box::new(sheet) })
+}
+
+/// What puts loads of gravity into a file: directions and coordinates, and where its job has both, one body that is free or one that is held.
+fn key_of_gravity(superelement: &Superelement) -> &'static str {
+    let model = &superelement.metadata().job["model"];
+    match model["dofs"].is_null() || model["nodes"].is_null() {
+        true => "model.dofs and model.nodes",
+        false => "a model of one free body, or with [[fixed]]",
+    }
 }
 
 /// What the file lacks for what a flag wants, and the key of the job that writes it.

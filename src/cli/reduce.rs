@@ -23,7 +23,7 @@ use crate::cache::Cache;
 use crate::error::{Error, Result};
 use crate::memory_forecast::Resources;
 use crate::outcome::Outcome;
-use crate::report::{JunitWarnings, Observer, Report, StageClock, html, junit, summary};
+use crate::report::{Observer, Report, StageClock, html, junit, summary};
 use crate::verification::check::{Check, Verdict};
 
 pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Terminal<'_>) -> Result<ExitCode> {
@@ -69,6 +69,7 @@ pub(super) fn run(command: &ReduceCommand, pipeline: Pipeline, terminal: &mut Te
     };
     clock.stage("write");
     report.run.n_threads = command.threads.used;
+    report.run.reservations = command.strictness.reservations();
     report.run.cache = cache.as_ref().map(Cache::tally);
     let (code, superelement) = stage_superelement((command, &own), &superelement, &mut report)?;
     report.run.stages = clock.finish();
@@ -167,13 +168,9 @@ fn stage_all<'a>(
     superelement: Option<StagedFile>,
 ) -> Result<Outputs<'a>> {
     let write = &command.job.write;
-    let warnings = match command.strictness {
-        Strictness::Normal => JunitWarnings::Pass,
-        Strictness::Strict => JunitWarnings::Fail,
-    };
     let mut files: Vec<(PathBuf, String)> = vec![(write.report_path(), report.to_json()?)];
     files.extend(write.html.clone().map(|path| (path, html(report))));
-    files.extend(write.junit.clone().map(|path| (path, junit(report, warnings))));
+    files.extend(write.junit.clone().map(|path| (path, junit(report, report.run.reservations))));
     let mut outputs = Outputs::new(own);
     files.iter().try_for_each(|(path, text)| outputs.stage(path, text.as_bytes()))?;
     superelement.into_iter().for_each(|file| outputs.push(file));

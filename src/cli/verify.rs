@@ -59,7 +59,9 @@ pub(super) fn run(command: &VerifyCommand, pipeline: Pipeline, terminal: &mut Te
         audit,
     };
     match command.answer {
-        Answer::Text => terminal.answer(&report.to_text(&superelement, terminal.paint)),
+        Answer::Text => {
+            terminal.answer(&report.to_text(&superelement, command.strictness.reservations(), terminal.paint))
+        }
         Answer::Json => terminal.answer(&report.to_json(&superelement)?),
         Answer::Nothing => {
             unmet(&report.audit.checks, &[], command.strictness).iter().for_each(|line| terminal.complain(line));

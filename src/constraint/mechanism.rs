@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::factor::{Analysis, few_digits, whole_count};
 use crate::job::Mechanisms;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, largest_residual, lost_interface, refuse_uncounted, settled, zero_energy};
+use crate::rigid::{RigidBodyModes, lost_interface, refuse_uncounted, residual_of, settled, zero_energy};
 use crate::sparse::absolute_energy;
 use crate::sparse::{product, product_and_terms};
 
@@ -271,8 +271,7 @@ fn refuse_without_energy(partition: &Partition, massless: MatRef<'_, f64>) -> Re
 /// U and Q with the motions of mechanisms; those without mass stay the last of Q.
 fn joined(partition: &Partition, rigid: RigidBodyModes, mechanisms: MatRef<'_, f64>) -> RigidBodyModes {
     let orthonormal = dense::concatenated(mechanisms.nrows(), [rigid.massive(), mechanisms, rigid.massless()]);
-    let mut energy = rigid.energy;
-    energy.largest_residual = energy.largest_residual.max(largest_residual(&partition.stiffness, mechanisms));
+    let energy = rigid.energy.with_residual(residual_of(partition, mechanisms));
     RigidBodyModes {
         modes: dense::side_by_side(rigid.modes.as_ref(), mechanisms),
         mass_orthonormal: product(&partition.mass, orthonormal.as_ref()),

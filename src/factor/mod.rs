@@ -16,6 +16,7 @@ mod analysis;
 mod cholesky;
 mod elimination;
 mod entry;
+mod exact_residual;
 mod indefinite;
 mod matrix;
 mod multifrontal;

@@ -21,7 +21,7 @@
 //! - Up to 6 digits, or above 15, fixed point is believed only of 20 different values with a decimal after the point, whose last
 //!   decimals are six different digits at least. Halves and quarters end with a 5, multiples of 0.2 with even digits. So whole numbers
 //!   up to 999999, springs of 2 and −1 and lumped masses of 0.25 are exact: 17. A computed double has 16 or 17 digits; above 15, a tenth
-//!   of the values must have fewer.
+//!   of the values must have fewer. Whole numbers of 16 digits are believed, too, next to 20 different ones of 7 to 15 digits.
 //! - A text in a fixed format or in fields of a fixed width shows its digits or decimals, see [`super::written`].
 //!
 //! Not seen: entries that were rounded to zero and left out; whole numbers below 10⁶ that were rounded (`%.0f`); fewer values than these.
@@ -276,7 +276,10 @@ fn fixed_point(distinct: &BTreeSet<Decimal>, digits: u32, relative: Digits) -> O
     let n_short = short().count();
     let is_believed = distinct.len() >= MIN_DISTINCT_SHORT && last.len() >= MIN_LAST_DECIMALS;
     let is_short = digits <= MAX_DECIMAL_DIGITS || (10 * n_short >= distinct.len() && n_short >= MIN_DISTINCT_SHORT);
-    (decimals > 0 && is_believed && is_short).then_some(decimals)
+    // Computed numbers of these sizes have decimals.
+    let is_rounded_whole =
+        digits > MAX_DECIMAL_DIGITS && short().filter(|d| d.n_digits > MAX_EXACT_DIGITS).count() >= MIN_DISTINCT_SHORT;
+    ((decimals > 0 || is_rounded_whole) && is_believed && is_short).then_some(decimals)
 }
 
 #[cfg(test)]

@@ -18,6 +18,9 @@ use crate::job::AddedMassJob;
 use crate::number;
 use crate::sparse::{Declared, Triplets};
 
+/// Roundings of an entry J + m (y² + z²), relative to the root of its diagonals: four of the product, one for each of the two sums.
+const ROUNDINGS_OF_A_MASS: f64 = 6.0;
+
 /// Adds the masses of a job to M, and says of each what was added, for the report.
 ///
 /// # Errors
@@ -45,6 +48,7 @@ pub fn add_masses(input: &mut Input, masses: &[AddedMassJob]) -> Result<Vec<Stri
     let (n, path) = (input.mass.matrix.rows(), input.mass.path.clone());
     let (added, _) = added.assemble(n, Declared::Whole, &path)?;
     input.mass.matrix = sprs::binop::csmat_binop(input.mass.matrix.view(), added.view(), |a, b| a + b);
+    input.mass.notes.added += ROUNDINGS_OF_A_MASS * masses.len() as f64;
     masses.iter().map(in_words).collect()
 }
 

@@ -234,8 +234,9 @@ fn refuse_same(stiffness: &MatrixInput, mass: &MatrixInput) -> Result<()> {
 
 /// What the entries of a matrix may be off by, in the units of its file.
 pub(crate) fn rounding_of(matrix: &MatrixInput) -> Rounding {
-    let own = rounding_as_written(matrix);
-    matrix.notes.turned.map_or(own, |turned| own.turned(turned))
+    // Of a sum of n parts the sums on the way are no more than those of moduli.
+    let own = rounding_as_written(matrix).made_by(matrix.notes.most_repeated as f64);
+    matrix.notes.turned.map_or(own, |turned| own.turned(turned)).made_by(matrix.notes.added)
 }
 
 fn rounding_as_written(matrix: &MatrixInput) -> Rounding {

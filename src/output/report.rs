@@ -47,6 +47,7 @@ fn model(results: &Results<'_>) -> ModelReport {
     let mut notes = results.input.notes.clone();
     notes.extend(model.findings.iter().map(ToString::to_string));
     notes.extend(warnings::refinement(results));
+    notes.extend(without_gravity(results));
     let mass_properties = mass_properties(results);
     if mass_properties.mass.is_some() && evidence.partition.held.count() > 0 {
         notes.push("mass, centre and inertia are those of the whole component, held dofs included".to_owned());
@@ -64,6 +65,19 @@ fn model(results: &Results<'_>) -> ModelReport {
         units: results.job().model.units.clone(),
         notes,
     }
+}
+
+/// What a model lacks because it is several bodies: motions that are combinations of theirs have no mass and no direction by themselves.
+fn without_gravity(results: &Results<'_>) -> Option<String> {
+    let (partition, reduction) = (&results.evidence.partition, &results.evidence.reduction);
+    let n_bodies = partition.model.n_bodies;
+    let is_meant = n_bodies > 1 && results.input.mass().is_some() && partition.sites().is_some();
+    (is_meant && reduction.gravity.is_none()).then(|| {
+        format!(
+            "the model is {n_bodies} bodies: mass properties and loads of gravity are those of one free body and were not computed; \
+             reduce each body by itself to have them"
+        )
+    })
 }
 
 fn matrix(facts: &MatrixFacts) -> MatrixReport {

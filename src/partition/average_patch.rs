@@ -48,10 +48,10 @@ pub(super) fn distortions(
     n_directions: usize,
 ) -> Result<Distortions> {
     let levers = rigid_patch::independent(sites, (node, rows), n_directions)?;
-    let patch_row = |((row, weight), lever): ((&usize, &f64), [f64; 6])| {
+    let patch_row = |((row, weight), [x, y, z, ..]): ((&usize, &f64), [f64; 6])| {
         let position = sites.of_row.as_ref().and_then(|sites| sites[*row]).map_or([0.0; 3], |site| site.position);
-        PatchRow { node: sites.node_of_row[*row], position, weight: *weight, lever }
+        PatchRow { node: sites.node_of_row[*row], position, weight: *weight, direction: [x, y, z] }
     };
     let patch: Vec<PatchRow> = rows.iter().zip(weights).zip(levers).map(patch_row).collect();
-    Distortions::of(&patch, n_directions, node.position.unwrap_or_default())
+    Distortions::of(&patch, n_directions)
 }

@@ -146,18 +146,21 @@ fn refuse_broken(
     whole: f64,
 ) -> Result<()> {
     for (row, terms) in given.list.iter().zip(carried) {
+        let in_displacements =
+            |dof: u32, size: f64| if is_rotation(&found.dofs[dof as usize]) { size / whole } else { size };
         let mut of_dofs: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
+        // Of a row whose dofs are at rest nothing is left but rounding of its own terms.
+        let mut largest = 0.0f64;
         for (dof, value) in terms {
             let value = value / found.scales[*dof as usize];
+            largest = largest.max(in_displacements(*dof, value.abs()));
             let own = [(*dof, 1.0)];
             for (other, factor) in found.dependent.get(dof).map_or(&own[..], Vec::as_slice) {
                 let (sum, size) = of_dofs.entry(*other).or_default();
                 (*sum, *size) = (*sum + value * factor, *size + (value * factor).abs());
             }
         }
-        let in_displacements =
-            |dof: u32, size: f64| if is_rotation(&found.dofs[dof as usize]) { size / whole } else { size };
-        let largest = of_dofs.iter().fold(0.0f64, |most, (dof, (_, size))| most.max(in_displacements(*dof, *size)));
+        let largest = of_dofs.iter().fold(largest, |most, (dof, (_, size))| most.max(in_displacements(*dof, *size)));
         let left = of_dofs.iter().map(|(dof, (sum, _))| in_displacements(*dof, sum.abs())).fold(0.0, f64::max);
         if left > BROKEN * largest {
             return Err(Error::ConstraintRank {

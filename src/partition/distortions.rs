@@ -23,7 +23,6 @@ use faer::linalg::solvers::Solve;
 
 use crate::dense;
 use crate::error::{Error, Result};
-use crate::model::recentred;
 
 /// Nodes that are divided no further: few enough for short columns, enough for few levels.
 const SMALLEST: usize = 24;
@@ -33,7 +32,7 @@ const HALVINGS: usize = 3;
 /// with motions fifty times as large. The end of a strip cut into eight has 0.04 and more, a quarter of a disc above 0.2.
 const FIRM: f64 = 0.02;
 /// Entries of D that are rounding of none, where the largest are of order one: they would only fill K.
-const NO_ENTRY: f64 = 16.0 * f64::EPSILON;
+pub(super) const NO_ENTRY: f64 = 16.0 * f64::EPSILON;
 
 /// A row of a patch.
 #[derive(Clone, Copy, Debug)]
@@ -44,8 +43,17 @@ pub(super) struct PatchRow {
     pub(super) position: [f64; 3],
     /// Its weight, positive.
     pub(super) weight: f64,
-    /// Its displacement under the six unit motions about [`Distortions`]' origin.
-    pub(super) lever: [f64; 6],
+    /// Which way it moves.
+    pub(super) direction: [f64; 3],
+}
+
+impl PatchRow {
+    /// Its displacement under the six unit motions about a point. The mean motion is none about all points or about no point: that of the patch's
+    /// own middle is used, since the node may be far away, and the difference of two long ways is none of a short one.
+    fn lever_about(&self, centre: [f64; 3]) -> [f64; 6] {
+        let ([x, y, z], [a, b, c]) = ([0, 1, 2].map(|axis| self.position[axis] - centre[axis]), self.direction);
+        [a, b, c, y * c - z * b, z * a - x * c, x * b - y * a]
+    }
 }
 
 /// D of a patch.
@@ -67,11 +75,11 @@ pub(super) enum Owner {
 }
 
 impl Distortions {
-    /// D for rows that follow `d` motions independently, whose rotations are about axes through `origin`.
+    /// D for rows that follow `d` motions independently.
     ///
     /// # Errors
     /// [`Error::DenseEigen`].
-    pub(super) fn of(rows: &[PatchRow], d: usize, origin: [f64; 3]) -> Result<Self> {
+    pub(super) fn of(rows: &[PatchRow], d: usize) -> Result<Self> {
         let mut nodes: Vec<Vec<usize>> = Vec::new();
         for (index, row) in rows.iter().enumerate() {
             match nodes.last_mut() {
@@ -79,7 +87,7 @@ impl Distortions {
                 _ => nodes.push(vec![index]),
             }
         }
-        let patch = Patch { rows, d, origin };
+        let patch = Patch { rows, d };
         let mut found = Self { owners: Vec::new(), rows: vec![Vec::new(); rows.len()] };
         let mut n_groups = 0;
         let mut open = vec![patch.group(nodes)?];
@@ -147,7 +155,6 @@ impl Distortions {
 struct Patch<'a> {
     rows: &'a [PatchRow],
     d: usize,
-    origin: [f64; 3],
 }
 
 /// Some nodes of a patch.
@@ -186,7 +193,7 @@ impl Patch<'_> {
         // Rows of zeros change no singular value.
         let mut motions = Mat::<f64>::zeros(rows.len().max(6), 6);
         for (i, row) in rows.iter().enumerate() {
-            let lever = recentred(self.rows[*row].lever, self.origin, centre);
+            let lever = self.rows[*row].lever_about(centre);
             (0..6).for_each(|j| motions[(i, j)] = root[i] * if j < 3 { lever[j] } else { lever[j] / size });
         }
         let svd = motions.thin_svd().map_err(|_| Error::DenseEigen { n: 6 })?;
@@ -267,20 +274,20 @@ fn pivots(a: &Mat<f64>) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dofs::Direction;
-    use crate::model::Site;
     use faer::MatRef;
 
     /// Translations of nodes of a curved skin, with weights of a factor of ten.
-    fn skin((nodes, width): ([usize; 2], f64), origin: [f64; 3]) -> Vec<PatchRow> {
+    fn skin((nodes, width): ([usize; 2], f64)) -> Vec<PatchRow> {
         let [n, m] = nodes;
         let node = |k: usize| {
             let (s, t) = ((k / m) as f64 / n as f64, width * (k % m) as f64 / m as f64);
             let position = [3.0 * s, (2.0 * t).sin(), (2.0 * t).cos() + 0.2 * s * s];
             let weight = 1.0 + 9.0 * (12.9 * k as f64).sin().abs();
-            Direction::ALL[..3].iter().map(move |direction| {
-                let lever = Site { position, direction: *direction }.rigid_motion_about(origin);
-                PatchRow { node: k as u32, position, weight, lever }
+            [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|direction| PatchRow {
+                node: k as u32,
+                position,
+                weight,
+                direction,
             })
         };
         (0..n * m).flat_map(node).collect()
@@ -303,13 +310,14 @@ mod tests {
     #[test]
     fn distortions_and_rigid_motions_are_all_motions() {
         let patches = [([4, 3], 1.0), ([8, 7], 1.0), ([21, 16], 1.0), ([150, 2], 0.01)];
-        for (nodes, origin) in patches.into_iter().zip([[0.0; 3], [1.0, 2.0, 30.0], [1.5, 0.0, 0.0], [0.0; 3]]) {
-            let rows = skin(nodes, origin);
+        for nodes in patches {
+            let rows = skin(nodes);
             let n = rows.len();
-            let found = Distortions::of(&rows, 6, origin).expect("distortions");
+            let found = Distortions::of(&rows, 6).expect("distortions");
             assert_eq!(found.owners.len(), n - 6);
             let d = dense_of(&found);
-            let weighted = Mat::from_fn(n, 6, |i, j| rows[i].weight * rows[i].lever[j]);
+            let levers: Vec<[f64; 6]> = rows.iter().map(|row| row.lever_about([1.5, 0.5, 0.5])).collect();
+            let weighted = Mat::from_fn(n, 6, |i, j| rows[i].weight * levers[i][j]);
             let mean = dense::gram(weighted.as_ref(), d.as_ref());
             let sizes = dense::gram(dense::absolute(weighted.as_ref()).as_ref(), dense::absolute(d.as_ref()).as_ref());
             for (mean, sizes) in mean.col_iter().zip(sizes.col_iter()) {
@@ -317,9 +325,8 @@ mod tests {
                 let bound = n as f64 / FIRM * f64::EPSILON * sizes.norm_max();
                 assert!(mean.norm_max() <= bound, "{nodes:?}: {:e} above {bound:e}", mean.norm_max());
             }
-            let centred = skin(nodes, [1.5, 0.5, 0.5]);
-            let l_centred = Mat::from_fn(n, 6, |i, j| centred[i].lever[j]);
-            let all = dense::side_by_side(l_centred.as_ref(), d.as_ref());
+            let levers = Mat::from_fn(n, 6, |i, j| levers[i][j]);
+            let all = dense::side_by_side(levers.as_ref(), d.as_ref());
             // A strip turns about its length with displacements of the size of its width.
             assert!(condition(all.as_ref()) < 1e3 / nodes.1, "{nodes:?}: {}", condition(all.as_ref()));
         }
@@ -329,8 +336,8 @@ mod tests {
     #[test]
     fn distortions_are_sparse() {
         let entries = |nodes: ([usize; 2], f64)| {
-            let rows = skin(nodes, [0.0; 3]);
-            let found = Distortions::of(&rows, 6, [0.0; 3]).expect("distortions");
+            let rows = skin(nodes);
+            let found = Distortions::of(&rows, 6).expect("distortions");
             found.rows.iter().map(Vec::len).sum::<usize>() as f64 / rows.len() as f64
         };
         // 1 for a row of its own; of 24 nodes six rows in 72 have 66; at each of two levels 6, and 42 for one group in eight.

@@ -12,10 +12,12 @@
 
 use faer::Mat;
 
+use super::distortions::NO_ENTRY;
 use super::interface::row_of_model;
 use super::node_catalogue::NodeCatalogue;
 use super::pressure::pressed;
-use super::transformation::Transformation;
+use super::transformation::{DofOrigin, Transformation};
+use super::transformation_row::TransformationRow;
 use crate::dense;
 use crate::dofs::{Direction, Dof, cross};
 use crate::error::{Error, Result};
@@ -113,9 +115,24 @@ impl Loads {
             if vector.iter().all(|value| *value == 0.0) {
                 return Err(Error::LoadNothing { load: load.facts.name.clone(), found: "all of it on held dofs" });
             }
+            clear_distortions(transformation, &load.values, vector);
         }
         let facts = loads.into_iter().map(|load| load.facts).collect();
         Ok(Self { facts, vectors, n_internal: transformation.n_internal() })
+    }
+}
+
+/// Sets forces on distortions of patches to zero that are rounding: D has entries of order one that are known to [`NO_ENTRY`], so that DᵀF is
+/// known to as much of Σ|F| over the rows of patches. A force that the node of a patch takes, shared out by the weights, has nothing
+/// else there, and its residual vector would be the answer to rounding.
+fn clear_distortions(transformation: &Transformation, values: &[f64], vector: &mut [f64]) {
+    let is_tied = |row: &TransformationRow| matches!(row, TransformationRow::Tied(_));
+    let on_patches = transformation.rows.iter().zip(values).filter(|(row, _)| is_tied(row));
+    let terms: f64 = on_patches.map(|(_, value)| value.abs()).sum();
+    for (dof, force) in transformation.dofs.iter().zip(vector) {
+        if matches!(dof.origin, DofOrigin::Distortion(..)) && force.abs() <= NO_ENTRY * terms {
+            *force = 0.0;
+        }
     }
 }
 

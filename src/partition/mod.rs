@@ -35,6 +35,7 @@ mod interface_node;
 mod internal_directions;
 mod keys;
 mod load;
+mod made_entries;
 mod metis;
 mod minimum_degree;
 mod missing_directions;

@@ -41,7 +41,7 @@ pub const CHANCE_OF_MORE: f64 = 1e-12;
 /// How much larger than their sum the terms of a patch of a mesh are, at most: by about the number of layers of elements that it ties.
 const LARGEST_OF_MESHES: f64 = 1e3;
 /// Columns that one reading of the entries serves.
-const WIDTH: usize = 8;
+pub(super) const WIDTH: usize = 8;
 
 /// Of some columns: Σ h (Q⁺ + Q⁻) and Σ h² (Q⁺² + Q⁻²), or Σ h |w x̃_i x̃_j| and Σ h² w² x̃_i² x̃_j² of sums of parts.
 type Sums = [[f64; WIDTH]; 2];
@@ -174,7 +174,7 @@ impl Partition {
     }
 
     /// T x at the dofs of the partition and at the rows of patches, row by row; zeros behind the rows and columns of x.
-    fn extended(&self, x: MatRef<'_, f64>) -> Vec<[f64; WIDTH]> {
+    pub(super) fn extended(&self, x: MatRef<'_, f64>) -> Vec<[f64; WIDTH]> {
         let mut extended = vec![[0.0; WIDTH]; self.n_dofs()];
         for (j, column) in x.col_iter().enumerate() {
             extended.iter_mut().zip(column.iter()).for_each(|(row, value)| row[j] = *value);

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde::ser::{SerializeStruct, Serializer};
 
-use super::conclusion::{MatrixDigits, Open, concluded};
+use super::conclusion::{MatrixDigits, Open, Reservations, concluded};
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH, verdict_word};
 use super::summary::body;
@@ -121,7 +121,7 @@ impl CertificationReport {
     }
 
     /// The text for people.
-    pub fn to_text(&self, paint: Paint) -> String {
+    pub fn to_text(&self, reservations: Reservations, paint: Paint) -> String {
         let mut page = Page::new(paint);
         let Self { generator, model, certification, .. } = self;
         let dofs = counted(model.n_dofs, "degree of freedom", "degrees of freedom");
@@ -141,17 +141,17 @@ impl CertificationReport {
             model.warnings.iter().for_each(|warning| page.entry(warning.code, &warning.message));
         }
         page.line("");
-        for line in table::wrap(&self.conclusion(), WIDTH) {
+        for line in table::wrap(&self.conclusion(reservations), WIDTH) {
             page.line(Page::toned(&line, Tone::Of(certification.verdict())));
         }
         page.into_text()
     }
 
     /// The verdict in one line.
-    pub(super) fn conclusion(&self) -> String {
+    fn conclusion(&self, reservations: Reservations) -> String {
         let Certification { checks, .. } = &self.certification;
         let open = Open { share: 0.0, digits: MatrixDigits::All };
-        concluded("certified", checks, 0, (self.certification.verdict(), &open))
+        concluded("certified", checks, 0, (self.certification.verdict(), reservations, &open))
     }
 
     fn read(&self, page: &mut Page) {

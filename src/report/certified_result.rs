@@ -1,8 +1,7 @@
 //! What another program computed, held against its model: eigenpairs or a superelement.
 
 use super::html::certification::{of_pairs, of_superelement};
-use super::junit::{self, JunitWarnings};
-use super::{CertificationReport, CertifiedModel, Paint, ReducedReport};
+use super::{CertificationReport, CertifiedModel, Paint, ReducedReport, Reservations, junit};
 use crate::error::Result;
 use crate::number::counted;
 use crate::verification::check::{Check, Verdict};
@@ -54,23 +53,23 @@ impl CertifiedResult {
     }
 
     /// The text for people.
-    pub fn to_text(&self, paint: Paint) -> String {
+    pub fn to_text(&self, reservations: Reservations, paint: Paint) -> String {
         match self {
-            Self::Pairs(report) => report.to_text(paint),
-            Self::Superelement(report) => report.to_text(paint),
+            Self::Pairs(report) => report.to_text(reservations, paint),
+            Self::Superelement(report) => report.to_text(reservations, paint),
         }
     }
 
     /// The page to read, print and sign.
-    pub fn to_html(&self) -> String {
+    pub fn to_html(&self, reservations: Reservations) -> String {
         match self {
-            Self::Pairs(report) => of_pairs(report),
-            Self::Superelement(report) => of_superelement(report),
+            Self::Pairs(report) => of_pairs(report, reservations),
+            Self::Superelement(report) => of_superelement(report, reservations),
         }
     }
 
     /// The checks as JUnit XML.
-    pub fn to_junit(&self, warnings: JunitWarnings) -> String {
+    pub fn to_junit(&self, reservations: Reservations) -> String {
         let subject = match self {
             Self::Pairs(report) => counted(report.result.n_pairs, "pair", "pairs"),
             Self::Superelement(report) => {
@@ -80,6 +79,6 @@ impl CertifiedResult {
                 )
             }
         };
-        junit::certified(&subject, self.checks(), self.model(), warnings)
+        junit::certified(&subject, self.checks(), self.model(), reservations)
     }
 }

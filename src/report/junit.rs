@@ -5,20 +5,12 @@
 
 use std::fmt::Write;
 
+use super::conclusion::Reservations;
 use super::html::escaped;
 use super::{CertifiedModel, Completeness, Report, RunFacts, words};
 use crate::error::Warning;
 use crate::number::scientific;
 use crate::verification::check::{Check, Verdict};
-
-/// What a value past its limit, a warning and a missing certificate are to the test suite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JunitWarnings {
-    /// Passed, with the warning as output: the superelement was written.
-    Pass,
-    /// Failed, as with `--strict`.
-    Fail,
-}
 
 /// How one test ended.
 enum Outcome {
@@ -33,26 +25,27 @@ enum Outcome {
     Skipped(String),
 }
 
-/// One suite for the run; a test for each check, one for completeness, one for each warning.
-pub fn junit(report: &Report, warnings: JunitWarnings) -> String {
+/// One suite for the run; a test for each check, one for completeness, one for each warning. Values past their limits, warnings and a missing
+/// certificate have passed, with what they say as output, where they are accepted.
+pub fn junit(report: &Report, reservations: Reservations) -> String {
     let body = &report.body;
-    let mut cases = of_checks(&body.checks, warnings);
-    cases.push(("completeness of the modes".to_owned(), of_completeness(&body.completeness, warnings)));
-    cases.extend(body.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, warnings))));
+    let mut cases = of_checks(&body.checks, reservations);
+    cases.push(("completeness of the modes".to_owned(), of_completeness(&body.completeness, reservations)));
+    cases.extend(body.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, reservations))));
     let seconds: f64 = report.run.stages.iter().map(|stage| stage.seconds).sum();
     written(&suite(report), seconds, |xml| write_properties(xml, &report.run), cases)
 }
 
 /// One suite for what another program computed; a test for each check and for each warning of the model.
-pub(super) fn certified(subject: &str, checks: &[Check], model: &CertifiedModel, warnings: JunitWarnings) -> String {
-    let mut cases = of_checks(checks, warnings);
-    cases.extend(model.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, warnings))));
+pub(super) fn certified(subject: &str, checks: &[Check], model: &CertifiedModel, reservations: Reservations) -> String {
+    let mut cases = of_checks(checks, reservations);
+    cases.extend(model.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, reservations))));
     let name = format!("certification of {subject}, {} degrees of freedom", model.n_dofs);
     written(&escaped(&name), 0.0, |_| {}, cases)
 }
 
-fn of_checks(checks: &[Check], warnings: JunitWarnings) -> Vec<(String, Outcome)> {
-    checks.iter().map(|check| (format!("{} {}", check.id, check.name), of_check(check, warnings))).collect()
+fn of_checks(checks: &[Check], reservations: Reservations) -> Vec<(String, Outcome)> {
+    checks.iter().map(|check| (format!("{} {}", check.id, check.name), of_check(check, reservations))).collect()
 }
 
 /// The document of one suite, whose name is escaped.
@@ -106,7 +99,7 @@ fn suite(report: &Report) -> String {
     escaped(&format!("{} reduction, {sizes}", reduction.method.name()))
 }
 
-fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
+fn of_check(check: &Check, reservations: Reservations) -> Outcome {
     let (value, limit) = (scientific(check.value, 3), scientific(check.limits.value(), 3));
     let message = format!("{}: value {value}, limit {limit}", check.id);
     let worst = check.worst.as_ref().map(|worst| format!("worst: {worst}"));
@@ -122,36 +115,36 @@ fn of_check(check: &Check, warnings: JunitWarnings) -> Outcome {
     };
     let mut details = vec![check.name.to_owned(), format!("{} = {value}", check.equation), limits];
     details.extend(worst);
-    match (check.verdict(), warnings) {
+    match (check.verdict(), reservations) {
         (Verdict::Info, _) => Outcome::Told(details),
         (Verdict::Pass, _) => Outcome::Passed,
-        (Verdict::Warn, JunitWarnings::Pass) => {
+        (Verdict::Warn, Reservations::Accepted) => {
             details.insert(0, "past the limit".to_owned());
             Outcome::Told(details)
         }
-        (Verdict::Warn, JunitWarnings::Fail) => Outcome::Failed { kind: "warn", message, details },
+        (Verdict::Warn, Reservations::Refused) => Outcome::Failed { kind: "warn", message, details },
         (Verdict::Fail, _) => Outcome::Failed { kind: "fail", message, details },
     }
 }
 
-fn of_completeness(completeness: &Completeness, warnings: JunitWarnings) -> Outcome {
+fn of_completeness(completeness: &Completeness, reservations: Reservations) -> Outcome {
     let message = completeness.statement();
     match completeness {
         Completeness::NotCertified { .. } => Outcome::Skipped(message),
         Completeness::SturmCount { .. } if completeness.is_certified() => Outcome::Told(vec![message]),
-        Completeness::SturmCount { n_counted, n_found, .. } if n_counted == n_found => of_told(message, warnings),
+        Completeness::SturmCount { n_counted, n_found, .. } if n_counted == n_found => of_told(message, reservations),
         Completeness::SturmCount { .. } => Outcome::Failed { kind: "fail", details: vec![message.clone()], message },
     }
 }
 
-fn of_warning(warning: &Warning, warnings: JunitWarnings) -> Outcome {
-    of_told(warning.message.clone(), warnings)
+fn of_warning(warning: &Warning, reservations: Reservations) -> Outcome {
+    of_told(warning.message.clone(), reservations)
 }
 
-fn of_told(message: String, warnings: JunitWarnings) -> Outcome {
-    match warnings {
-        JunitWarnings::Pass => Outcome::Told(vec![message]),
-        JunitWarnings::Fail => Outcome::Failed { kind: "warn", details: vec![message.clone()], message },
+fn of_told(message: String, reservations: Reservations) -> Outcome {
+    match reservations {
+        Reservations::Accepted => Outcome::Told(vec![message]),
+        Reservations::Refused => Outcome::Failed { kind: "warn", details: vec![message.clone()], message },
     }
 }
 

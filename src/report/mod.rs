@@ -47,10 +47,11 @@ use crate::verification::preservation::Preservation;
 pub use assembly::ModesReport;
 pub use certification::{CertificationReport, CertifiedModel, ResultReport};
 pub use certified_result::CertifiedResult;
+pub use conclusion::Reservations;
 pub use expansion::{ExpansionReport, ExpansionRow};
 pub use html::{escaped, html};
 pub use inspection::inspection;
-pub use junit::{JunitWarnings, junit};
+pub use junit::junit;
 pub use load::{LoadReport, ResidualVector};
 pub use page::Paint;
 pub use plan::PlanReport;
@@ -263,6 +264,9 @@ pub struct RunFacts {
     /// What the run had of its cache; absent where it had none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cache: Option<cache::Tally>,
+    /// Whether the run accepts warnings. The document has none of it: its verdict is the worst one.
+    #[serde(skip)]
+    pub reservations: Reservations,
 }
 
 /// What was done, counted; where results are those of earlier runs, what was done for these.

@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde::ser::{SerializeStruct, Serializer};
 
 use super::certification::read_model;
-use super::conclusion::{MatrixDigits, Open, concluded};
+use super::conclusion::{MatrixDigits, Open, Reservations, concluded};
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::{body, preserved};
@@ -65,7 +65,7 @@ impl ReducedReport {
     }
 
     /// The text for people.
-    pub fn to_text(&self, paint: Paint) -> String {
+    pub fn to_text(&self, reservations: Reservations, paint: Paint) -> String {
         let mut page = Page::new(paint);
         let Self { generator, model, source, certification } = self;
         let sizes = format!(
@@ -93,17 +93,17 @@ impl ReducedReport {
             model.warnings.iter().for_each(|warning| page.entry(warning.code, &warning.message));
         }
         page.line("");
-        for line in table::wrap(&self.conclusion(), WIDTH) {
+        for line in table::wrap(&self.conclusion(reservations), WIDTH) {
             page.line(Page::toned(&line, Tone::Of(certification.verdict())));
         }
         page.into_text()
     }
 
     /// The verdict in one line.
-    pub(super) fn conclusion(&self) -> String {
+    fn conclusion(&self, reservations: Reservations) -> String {
         let Self { certification, .. } = self;
         let open = Open { share: 0.0, digits: MatrixDigits::All };
-        concluded("certified", &certification.checks, 0, (certification.verdict(), &open))
+        concluded("certified", &certification.checks, 0, (certification.verdict(), reservations, &open))
     }
 
     /// What was found, a label and a line each.

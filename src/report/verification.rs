@@ -3,7 +3,7 @@
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use supel_runtime::Superelement;
 
-use super::conclusion::{MatrixDigits, Open, conclusion};
+use super::conclusion::{MatrixDigits, Open, Reservations, conclusion};
 use super::json::CheckLine;
 use super::page::{Page, Paint, Tone, WIDTH};
 use super::summary::body;
@@ -57,7 +57,7 @@ impl VerificationReport {
     }
 
     /// The text about `superelement` for people.
-    pub fn to_text(&self, superelement: &Superelement, paint: Paint) -> String {
+    pub fn to_text(&self, superelement: &Superelement, reservations: Reservations, paint: Paint) -> String {
         let mut page = Page::new(paint);
         let metadata = superelement.metadata();
         let sizes = format!("{} coordinates", superelement.n_coordinates());
@@ -89,8 +89,9 @@ impl VerificationReport {
         page.line("");
         let shares = metadata.named_columns().map(|column| Some(column.error_bar_hz()? / column.mode()?.1));
         let open = Open { share: shares.flatten().fold(0.0, f64::max), digits: MatrixDigits::Unrecorded };
-        for line in table::wrap(&conclusion(&self.audit.checks, 0, self.audit.verdict(), &open), WIDTH) {
-            page.line(Page::toned(&line, Tone::Of(self.audit.verdict())));
+        let verdict = self.audit.verdict();
+        for line in table::wrap(&conclusion(&self.audit.checks, 0, (verdict, reservations), &open), WIDTH) {
+            page.line(Page::toned(&line, Tone::Of(verdict)));
         }
         page.into_text()
     }

@@ -2,8 +2,8 @@
 
 use faer::Mat;
 
-use super::energy::residuals;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
+use super::rounding::residual;
 use crate::cache::{Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::eigen::{Shifted, mass_qr, shifted};
@@ -64,11 +64,11 @@ pub(crate) fn found_zero_modes(partition: &Partition) -> Result<ZeroModes> {
     // A free particle strains nothing, and its terms are rounding themselves: its inertia in the first elastic mode stands next to them, which is
     // less than the terms of what is joined to something.
     let sizes = &terms + of_mass * faer::Scale(elastic.first().copied().unwrap_or(0.0));
-    let largest_residual = residuals(forces.as_ref(), sizes.as_ref()).into_iter().fold(0.0, f64::max);
+    let residual = residual(partition, orthonormal.as_ref(), [forces.as_ref(), sizes.as_ref()], None);
     // A rounding E turns a zero mode towards an elastic one x by xᵀEq / λ, and xᵀEq is what it makes of the energies of the two.
     let level = found.lowest.errors[..found.n_zero].iter().map(|error| error.zero_level).fold(0.0, f64::max);
     let angle = elastic.first().map_or(0.0, |lambda| level / lambda);
-    let mut energy = RigidEnergy { largest_residual, angle, ..RigidEnergy::default() };
+    let mut energy = RigidEnergy { angle, ..RigidEnergy::default() }.with_residual(residual);
     for (j, magnitude) in magnitudes.iter().enumerate() {
         let (q, force) = (dense::column(orthonormal.as_ref(), j), dense::column(forces.as_ref(), j));
         energy.largest_quotient = energy.largest_quotient.max(dense::dot(q, force).abs());
@@ -99,10 +99,10 @@ impl Recorded for ZeroModes {
 
     fn write(&self, to: &mut Writer<'_>) -> std::io::Result<()> {
         let Self { rigid, elastic, bar_of_digits, n_factorisations } = self;
-        let RigidEnergy { largest_quotient, largest_residual, noise, angle } = rigid.energy;
+        let RigidEnergy { largest_quotient, largest_residual, residual_rounding, noise, angle } = rigid.energy;
         to.columns(rigid.orthonormal.as_ref())?;
         to.columns(rigid.mass_orthonormal.as_ref())?;
-        to.array(&[largest_quotient, largest_residual, noise, angle])?;
+        to.array(&[largest_quotient, largest_residual, residual_rounding, noise, angle])?;
         to.array(elastic)?;
         to.array(&[*bar_of_digits])?;
         to.counts(&[*n_factorisations])
@@ -110,8 +110,10 @@ impl Recorded for ZeroModes {
 
     fn read(from: &mut Reader<'_>) -> Option<Self> {
         let (orthonormal, mass_orthonormal) = (from.columns()?, from.columns()?);
-        let [largest_quotient, largest_residual, noise, angle] = from.array()?[..] else { return None };
-        let energy = RigidEnergy { largest_quotient, largest_residual, noise, angle };
+        let [largest_quotient, largest_residual, residual_rounding, noise, angle] = from.array()?[..] else {
+            return None;
+        };
+        let energy = RigidEnergy { largest_quotient, largest_residual, residual_rounding, noise, angle };
         let (elastic, bar_of_digits) = (from.array()?, from.number()?);
         let [n_factorisations] = from.counts()?[..] else { return None };
         Some(Self { rigid: algebraic(orthonormal, mass_orthonormal, energy), elastic, bar_of_digits, n_factorisations })

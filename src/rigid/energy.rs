@@ -6,7 +6,7 @@ use super::rigid_body_modes::RigidBodyModes;
 use crate::dense;
 use crate::eigen::{Equilibrated, zero};
 use crate::partition::Partition;
-use crate::sparse::{SparseMatrix, energies_of_terms, product_and_terms};
+use crate::sparse::{energies_of_terms, product_and_terms};
 
 /// Energies xᵀKx up to which motions are zero, by the criterion of [`crate::eigen::zero`]; `terms` are |K||x|.
 pub(crate) fn zero_energies(partition: &Partition, x: MatRef<'_, f64>, terms: MatRef<'_, f64>) -> Vec<f64> {
@@ -55,12 +55,6 @@ fn shown_and_sizes(partition: &Partition, rigid: &RigidBodyModes) -> (f64, Vec<f
         false => 0.0,
     };
     (share, sizes)
-}
-
-/// The largest ‖Kq‖ / ‖ |K||q| ‖ of the columns.
-pub(crate) fn largest_residual(stiffness: &SparseMatrix, q: MatRef<'_, f64>) -> f64 {
-    let (forces, terms) = product_and_terms(stiffness, q);
-    residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max)
 }
 
 /// ‖Kq‖ / ‖ |K||q| ‖ of each column, from the two products.

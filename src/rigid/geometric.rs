@@ -1,12 +1,14 @@
 //! Rigid-body modes from coordinates, body by body, verified against K; M-orthonormal over the bodies that M couples.
 
+use faer::linalg::solvers::SolveLstsq;
 use faer::{Mat, MatRef};
 
 use super::algebraic;
-use super::energy::{residuals, zero_energies};
+use super::energy::zero_energies;
 use super::preload::{self, WithoutForce};
 use super::rank::scales;
 use super::rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
+use super::rounding::{Turned, residual};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{NO_MASS, zero};
 use crate::error::{Error, Result};
@@ -37,9 +39,8 @@ pub(super) fn rigid_body_modes(partition: &Partition, sites: &[Option<Site>]) ->
     let is_classical = matches!(found.as_slice(), [body] if body.is_classical);
     let energy = found.iter().fold(RigidEnergy::default(), |worst, body| RigidEnergy {
         largest_quotient: worst.largest_quotient.max(body.energy.largest_quotient),
-        largest_residual: worst.largest_residual.max(body.energy.largest_residual),
         noise: worst.noise.max(body.energy.noise),
-        angle: 0.0,
+        ..worst.with_residual(body.energy.residual())
     });
     let n = sites.len();
     let spaces = coupled_by_mass(partition, &bodies, &found)?;
@@ -144,7 +145,8 @@ fn of_body(partition: &Partition, sites: &[Option<Site>], dofs: &[usize]) -> Res
         free_motions(partition, motions.as_ref())?
     };
     let orthonormal = settled(partition, orthonormal);
-    let energy = energy_of(partition, orthonormal.as_ref());
+    let angles = || angles_of(&orthonormal, &motions, moving.as_ref(), frame.size);
+    let energy = energy_of(partition, orthonormal.as_ref(), Turned { dofs, angles: &angles });
     // Were all six of a preloaded component free, the preload would show in rotations of its parts alone.
     let is_classical = orthonormal.ncols() + massless.ncols() == 6 && !partition.fit.is_preloaded();
     Ok(Body { dofs: dofs.to_vec(), orthonormal, massless, is_classical, energy })
@@ -229,17 +231,23 @@ fn is_free_to_k(partition: &Partition, found: &[Energies]) -> Result<bool> {
     }
 }
 
+/// The angles that motions turn a body of some size by. They are combinations of `motions`, and these of its centred unit motions by `moving`.
+fn angles_of(orthonormal: &Mat<f64>, motions: &Mat<f64>, moving: MatRef<'_, f64>, size: f64) -> Vec<f64> {
+    let combination = dense::product(moving, motions.qr().solve_lstsq(orthonormal).as_ref());
+    (0..combination.ncols()).map(|j| dense::norm(&dense::column(combination.as_ref(), j)[3..]) / size).collect()
+}
+
 /// What orthonormal motions cost.
-fn energy_of(partition: &Partition, orthonormal: MatRef<'_, f64>) -> RigidEnergy {
+fn energy_of(partition: &Partition, orthonormal: MatRef<'_, f64>, turned: Turned<'_>) -> RigidEnergy {
     let (forces, terms) = product_and_terms(&partition.stiffness, orthonormal);
     let energies = dense::dots(orthonormal, forces.as_ref());
     let sizes = energies_of_terms(orthonormal, terms.as_ref());
-    RigidEnergy {
+    let energy = RigidEnergy {
         largest_quotient: energies.into_iter().fold(0.0, |max: f64, energy| max.max(energy.abs())),
-        largest_residual: residuals(forces.as_ref(), terms.as_ref()).into_iter().fold(0.0, f64::max),
         noise: noise_share(partition) * sizes.into_iter().fold(0.0, f64::max),
-        angle: 0.0,
-    }
+        ..RigidEnergy::default()
+    };
+    energy.with_residual(residual(partition, orthonormal, [forces.as_ref(), terms.as_ref()], Some(turned)))
 }
 
 /// What rounding of the data can make of an energy, relative to its terms.

@@ -19,14 +19,16 @@ mod of_partition;
 mod passing;
 mod preload;
 mod rank;
+mod residual;
 mod rigid_body_modes;
+mod rounding;
 mod shift;
 
 pub use algebraic::from_matrices;
 pub(crate) use algebraic::{
     ZeroModes, bar_of_digits, found_zero_modes, is_uncounted, lost_interface, refuse_uncounted, zero_modes,
 };
-pub(crate) use energy::{largest_residual, noise_of_digits, shown_below_zero, zero_energy};
+pub(crate) use energy::{noise_of_digits, shown_below_zero, zero_energy};
 pub use facts::facts;
 pub(crate) use geometric::{moving_directions, settled};
 pub use of_partition::{counted_by_matrices, from_coordinates, rigid_body_modes};
@@ -34,5 +36,7 @@ pub use passing::with_passing;
 pub(crate) use passing::{n_moving_less, n_passing, passing_motions, that_pass};
 pub use rank::{ILL_CONDITIONED, InterfaceRank, confirmed_rank, interface_rank, or_lack_of_rank};
 pub(crate) use rank::{scales, unit_motions};
+pub(crate) use residual::FORCE_ASKED;
 pub use rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};
+pub(crate) use rounding::residual_of;
 pub use shift::shift_of_factor;

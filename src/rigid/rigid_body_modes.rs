@@ -4,6 +4,7 @@ use faer::{Mat, MatRef};
 /// Geometric ones come from coordinates and are verified against K, algebraic ones from inverse iteration on K − σM.
 pub use supel_runtime::RigidBodyModes as RigidSource;
 
+use super::residual::Residual;
 use crate::cache::Key;
 use crate::dense;
 use crate::job::Boundary;
@@ -44,10 +45,26 @@ pub struct RigidEnergy {
     pub largest_quotient: f64,
     /// Largest relative residual ‖Kq‖ / ‖ |K||q| ‖.
     pub largest_residual: f64,
+    /// What rounding of coordinates and of the entries of K makes of it; not asked for where practice accepts it.
+    pub residual_rounding: f64,
     /// Largest Rayleigh quotient that rounding of the data can make: ε_K · |q|ᵀ|K||q|.
     pub noise: f64,
     /// How far rounding of the data may turn the modes towards elastic motion: nothing where they are from the coordinates.
     pub angle: f64,
+}
+
+impl RigidEnergy {
+    /// Its residual, as [`Residual`] joins it with others.
+    pub(crate) fn residual(&self) -> Residual {
+        Residual { value: self.largest_residual, rounding: self.residual_rounding }
+    }
+
+    /// With the residual of further motions.
+    #[must_use]
+    pub(crate) fn with_residual(self, other: Residual) -> Self {
+        let Residual { value, rounding } = self.residual().and(other);
+        Self { largest_residual: value, residual_rounding: rounding, ..self }
+    }
 }
 
 impl RigidBodyModes {

@@ -113,7 +113,7 @@ impl TripletBlocks {
         };
         let is_told = mirror == Mirror::On && !(declared == Declared::Symmetric && given == Given::OneTriangle);
         let given = if is_told { given } else { Given::Whole };
-        let notes = AssemblyNotes { n_duplicates, most_repeated, most_alike: None, given, triangle, turned: None };
+        let notes = AssemblyNotes { n_duplicates, most_repeated, given, triangle, ..AssemblyNotes::default() };
         let matrix = SparseMatrix::try_new((n, n), pointers, indices, data);
         Ok((matrix.unwrap_or_else(|(.., fault)| panic!("rows of {} are not sorted: {fault}", path.display())), notes))
     }

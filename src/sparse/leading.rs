@@ -96,6 +96,11 @@ pub fn diagonal<'a>(matrix: impl Into<Leading<'a>>) -> Vec<f64> {
     matrix.into().diagonal()
 }
 
+/// √(A_ii A_jj).
+pub(crate) fn ends(diagonal: &[f64], row: usize, col: usize) -> f64 {
+    (diagonal[row].abs() * diagonal[col].abs()).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use faer::Mat;

@@ -22,12 +22,12 @@ mod turning;
 pub(crate) use by_rows::{RowStorage, balanced_ranges, filled};
 pub(crate) use energy::{absolute_energy, energies_of_terms};
 pub use given::Given;
+pub(crate) use leading::ends;
 pub use leading::{Leading, diagonal};
 pub(crate) use pairs::{Completed, completed};
 pub use pencil::{Pencil, Precision};
 pub(crate) use principal::principal;
 pub use product::{absolute_product, multiply, panels, product, product_and_terms};
-pub(crate) use rounding::ends;
 pub use rounding::{Differing, HalfUnits, Rounding};
 pub(crate) use rows::{couples, is_empty_row};
 pub(crate) use triangle::Mirrored;
@@ -100,4 +100,6 @@ pub struct AssemblyNotes {
     pub triangle: Option<Triangle>,
     /// What turning rows made of the roundings of its entries; none where no row was turned.
     pub turned: Option<TurnedRoundings>,
+    /// Roundings of numbers that were added to its entries after that, as [`Rounding::made`] counts them.
+    pub added: f64,
 }

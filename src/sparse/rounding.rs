@@ -10,7 +10,7 @@
 
 use faer::{Mat, MatRef};
 
-use super::leading::Leading;
+use super::leading::{Leading, ends};
 use super::product::absolute_product;
 use super::turning::TurnedRoundings;
 use crate::error::{Error, Uncertain};
@@ -44,6 +44,9 @@ pub struct Rounding {
     pub share: f64,
     /// Why entries are known no better, where it is not for their digits.
     pub differing: Option<Differing>,
+    /// How many times ε/2 entries may be off from those that follow exactly from the numbers of the files, relative to max(|A_ij|, √(A_ii A_jj)):
+    /// numbers were added up or turned. None of entries as they were read.
+    pub made: f64,
 }
 
 impl Rounding {
@@ -52,7 +55,14 @@ impl Rounding {
 
     /// Of entries that were rounded to a share of themselves.
     pub const fn relative(relative: f64) -> Self {
-        Self { relative, absolute: 0.0, is_of_parts: false, n_alike: f64::INFINITY, share: relative, differing: None }
+        let n_alike = f64::INFINITY;
+        Self { relative, absolute: 0.0, is_of_parts: false, n_alike, share: relative, differing: None, made: 0.0 }
+    }
+
+    /// Of entries that this many more roundings of arithmetic have made.
+    #[must_use]
+    pub fn made_by(self, roundings: f64) -> Self {
+        Self { made: self.made + roundings, ..self }
     }
 
     /// With `share` as this matrix has it. Rows without entries do not count, and no row is more than uncertain.
@@ -72,8 +82,10 @@ impl Rounding {
     /// Of the matrix with some of its rows turned. Entries there are sums; those of double precision are rounded once more, to as much.
     #[must_use]
     pub fn turned(self, turned: TurnedRoundings) -> Self {
+        // An entry is rounded once, or left out: that counts with the diagonal.
+        let made = self.made * turned.enlargement + 1.0 + turned.left_out / (0.5 * f64::EPSILON);
         // Of the nine entries that make one up to three in each row of T count in full.
-        let of_parts = Self { absolute: 3.0 * self.absolute, is_of_parts: true, n_alike: f64::INFINITY, ..self };
+        let of_parts = Self { absolute: 3.0 * self.absolute, is_of_parts: true, n_alike: f64::INFINITY, made, ..self };
         if !self.is_coarse() {
             return of_parts;
         }
@@ -91,7 +103,8 @@ impl Rounding {
     /// With entries that are known no better than two triangles agree.
     #[must_use]
     pub fn of_differing(self, differing: Differing) -> Self {
-        Self { differing: Some(differing), ..self.of_parts(0.5 * differing.of_rows) }
+        // The mean of two entries is rounded.
+        Self { differing: Some(differing), ..self.of_parts(0.5 * differing.of_rows).made_by(1.0) }
     }
 
     /// The error of what the entries do not tell.
@@ -198,11 +211,6 @@ impl HalfUnits {
         }
         half_unit(size, self.decade, self.rounding.relative) / self.unit
     }
-}
-
-/// √(A_ii A_jj).
-pub(crate) fn ends(diagonal: &[f64], row: usize, col: usize) -> f64 {
-    (diagonal[row].abs() * diagonal[col].abs()).sqrt()
 }
 
 /// The power of ten that a number begins with.

@@ -9,7 +9,9 @@
 
 use rayon::prelude::*;
 
+use super::leading::ends;
 use super::{RowStorage, SparseMatrix, diagonal, filled};
+use crate::twofold::{Twofold, exact_product};
 
 /// The axes of a node, each by its components along those of the model.
 type Axes = [[f64; 3]; 3];
@@ -39,6 +41,17 @@ pub struct Turned {
 pub struct TurnedRoundings {
     /// How many times their own share entries may be off: the rounding of a stiff direction reaches a soft one.
     pub enlargement: f64,
+    /// The largest sum over a row of the entries that were left out as rounding of nothing.
+    pub left_out: f64,
+}
+
+/// An entry of a turned matrix.
+#[derive(Clone, Copy)]
+struct TurnedEntry {
+    col: u32,
+    value: f64,
+    /// Whether it is what rounding of its terms leaves of nothing.
+    is_rounding: bool,
 }
 
 impl Turning {
@@ -81,8 +94,15 @@ impl Turning {
     /// TᵀAT for a matrix A of n × n.
     pub fn turned(&self, matrix: &SparseMatrix) -> Turned {
         let n = matrix.rows();
-        let rows: Vec<Option<Vec<(u32, f64)>>> =
+        let mut rows: Vec<Option<Vec<TurnedEntry>>> =
             (0..n).into_par_iter().map(|row| self.turned_row(matrix, row)).collect();
+        let own = diagonal(matrix);
+        let of_turned = diagonal_of(&rows, &own);
+        let left_out = rows
+            .par_iter_mut()
+            .enumerate()
+            .map(|(row, turned)| leave_out(turned, row, &of_turned))
+            .reduce(|| 0.0, f64::max);
         let length = |row: usize| match &rows[row] {
             Some(entries) => entries.len(),
             None => matrix.outer_view(row).map_or(0, |view| view.nnz()),
@@ -93,8 +113,8 @@ impl Turning {
             || (),
             |(), row, indices, values| match &rows[row] {
                 Some(entries) => {
-                    indices.iter_mut().zip(entries).for_each(|(index, (col, _))| *index = *col);
-                    values.iter_mut().zip(entries).for_each(|(value, (_, entry))| *value = *entry);
+                    let places = indices.iter_mut().zip(values).zip(entries);
+                    places.for_each(|((index, value), entry)| (*index, *value) = (entry.col, entry.value));
                 }
                 None => {
                     let Some(view) = matrix.outer_view(row) else { return };
@@ -103,10 +123,8 @@ impl Turning {
                 }
             },
         );
-        let turned = SparseMatrix::new((n, n), pointers, indices, values);
-        let sizes = [diagonal(matrix), diagonal(&turned)];
-        let roundings = TurnedRoundings { enlargement: self.enlargement(&sizes) };
-        Turned { matrix: turned, roundings }
+        let roundings = TurnedRoundings { enlargement: self.enlargement(&[own, of_turned]), left_out };
+        Turned { matrix: SparseMatrix::new((n, n), pointers, indices, values), roundings }
     }
 
     /// The rows that a row of the files is a sum of, and by what factors.
@@ -132,29 +150,32 @@ impl Turning {
     /// A row of TᵀAT; none where it is that of A.
     ///
     /// The entries at (i, j) and (j, i) are sums of the same products. They are taken in an order that does not depend on the side: by the
-    /// two rows of the files that they come from, and a pair of these that comes twice is added up first.
-    fn turned_row(&self, matrix: &SparseMatrix, row: usize) -> Option<Vec<(u32, f64)>> {
+    /// two rows of the files that they come from, and a pair of these that comes twice is added up first. They are summed to twice the working
+    /// precision and rounded once: a stiff direction leaves no more of its rounding in a soft one than its own number has.
+    fn turned_row(&self, matrix: &SparseMatrix, row: usize) -> Option<Vec<TurnedEntry>> {
         let is_turned = |row: u32| self.places[row as usize].is_some();
         let own = matrix.outer_view(row);
         if !is_turned(row as u32) && !own.iter().flat_map(|view| view.indices()).any(|col| is_turned(*col)) {
             return None;
         }
-        let mut terms: Vec<(u32, [u32; 2], f64)> = Vec::new();
+        let mut terms: Vec<(u32, [u32; 2], Twofold)> = Vec::new();
         for (source, factor) in self.sources(row as u32) {
             for (col, value) in matrix.outer_view(source as usize).iter().flat_map(|view| view.iter()) {
                 let key = [source.min(col as u32), source.max(col as u32)];
-                terms.extend(self.shares(col as u32).map(|(target, share)| (target, key, factor * share * value)));
+                let of_pair = |share: f64| exact_product(factor, share) * *value;
+                terms.extend(self.shares(col as u32).map(|(target, share)| (target, key, of_pair(share))));
             }
         }
         terms.sort_unstable_by_key(|(target, key, _)| (*target, *key));
-        let of_target = terms.chunk_by(|a, b| a.0 == b.0);
-        let sums = of_target.map(|terms| {
+        let of_target = |terms: &[(u32, [u32; 2], Twofold)]| {
             let of_pair = terms.chunk_by(|a, b| a.1 == b.1);
-            let sum: f64 = of_pair.map(|pair| pair.iter().map(|(_, _, value)| value).sum::<f64>()).sum();
-            let size = terms.iter().fold(0.0, |size: f64, (_, _, value)| size.max(value.abs()));
-            (terms[0].0, if terms.len() > 1 && sum.abs() <= NOTHING * size { 0.0 } else { sum })
-        });
-        Some(sums.filter(|(_, sum)| *sum != 0.0).collect())
+            let of_pair = of_pair.map(|pair| pair.iter().fold(Twofold::default(), |sum, (_, _, value)| sum + *value));
+            let value = of_pair.fold(Twofold::default(), |sum, of_pair| sum + of_pair).value();
+            let size = terms.iter().fold(0.0, |size: f64, (_, _, value)| size.max(value.high.abs()));
+            let is_rounding = terms.len() > 1 && value.abs() <= NOTHING * size;
+            TurnedEntry { col: terms[0].0, value, is_rounding }
+        };
+        Some(terms.chunk_by(|a, b| a.0 == b.0).map(of_target).collect())
     }
 
     /// The largest (Σ_a |T_ai| √A_aa)² / (TᵀAT)_ii, one at least. With |E_ab| ≤ r √(A_aa A_bb) the sum over a and b at (i, j) is r times the
@@ -168,6 +189,33 @@ impl Turning {
         };
         self.blocks.iter().flat_map(|(rows, _)| *rows).map(of_row).fold(1.0, f64::max)
     }
+}
+
+/// The diagonal of a turned matrix; `own` is that of the rows that were not turned.
+fn diagonal_of(rows: &[Option<Vec<TurnedEntry>>], own: &[f64]) -> Vec<f64> {
+    let of_row = |(row, turned): (usize, &Option<Vec<TurnedEntry>>)| match turned {
+        Some(entries) => entries.iter().find(|entry| entry.col as usize == row).map_or(0.0, |entry| entry.value),
+        None => own[row],
+    };
+    rows.iter().enumerate().map(of_row).collect()
+}
+
+/// Leaves out what rounding of its terms leaves of nothing, and returns the sum of that over √(A_ii A_jj), which are zero where no entries are:
+/// what is rounding of a stiff direction may be much in a soft one.
+///
+/// ```text
+/// Σ |D_ij||x_i||x_j| ≤ max_i Σ_j |D_ij| / √(A_ii A_jj)  Σ A_ii x_i²
+/// ```
+fn leave_out(turned: &mut Option<Vec<TurnedEntry>>, row: usize, diagonal: &[f64]) -> f64 {
+    let mut left_out = 0.0;
+    for entries in turned.iter_mut() {
+        entries.retain(|TurnedEntry { col, value, is_rounding }| {
+            let root = ends(diagonal, row, *col as usize);
+            left_out += if *is_rounding && root > 0.0 { value.abs() / root } else { 0.0 };
+            !is_rounding && *value != 0.0
+        });
+    }
+    left_out
 }
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, RESIDUAL_FLOOR, mass_orthogonality};
 use crate::job::Boundary;
 use crate::modes::Retained;
+use crate::rigid::RigidEnergy;
 use crate::sparse::Pencil;
 use crate::sparse::panels;
 
@@ -125,24 +126,34 @@ fn mixed_by_rounding(evidence: &Evidence<'_>) -> f64 {
     largest.min(MOST_MIXED)
 }
 
+/// The force of rigid-body motion relative to its terms, as far as M-05 takes it for rounding of coordinates and entries.
+fn force_of_rounding(evidence: &Evidence<'_>) -> f64 {
+    let RigidEnergy { largest_residual, residual_rounding, .. } = evidence.rigid.energy;
+    largest_residual.min(residual_rounding)
+}
+
 /// Limits of a residual, relative to the terms it is summed from: what the eigensolver and the data leave of it.
 fn residual_limits(evidence: &Evidence<'_>) -> Limits {
     let digits = evidence.partition.precision.share();
     // The eigensolver takes a pair at a residual of 16 ε of the largest θ = 1/λ, which is this share of its own.
     let solver = (TAKEN_AT * evidence.retained.modes.spread()).max(mixed_by_rounding(evidence));
     // On a free component a load is balanced by the interface first and the rigid-body motion taken out afterwards.
-    // That motion is up to 1/ratio times the elastic one, and K lets it pass only to the precision of its data; ten
-    // stands for the sum over the rigid-body modes. An interface that holds too badly is not used for this.
-    let of_motion = || (10.0 * digits / evidence.rank.singular_ratio).min(MAX_SOLVE_RESIDUAL.max(10.0 * digits));
-    let motion = match evidence.retained.boundary {
-        Boundary::FreeInterface => of_motion(),
-        Boundary::MixedInterface if evidence.n_zero() > 0 => of_motion(),
-        Boundary::FixedInterface | Boundary::MixedInterface => 0.0,
+    // That motion is up to 1/ratio times the elastic one, and K lets it pass only to the precision of its data and to that of its coordinates;
+    // ten stands for the sum over the rigid-body modes. An interface that holds too badly is not used for this.
+    let of_motion =
+        |share: f64| (10.0 * share / evidence.rank.singular_ratio).min(MAX_SOLVE_RESIDUAL.max(10.0 * share));
+    let is_free = match evidence.retained.boundary {
+        Boundary::FreeInterface => true,
+        Boundary::MixedInterface => evidence.n_zero() > 0,
+        Boundary::FixedInterface => false,
     };
+    let [of_digits, of_rounding] =
+        if is_free { [digits, force_of_rounding(evidence)].map(of_motion) } else { [0.0; 2] };
+    let solver = solver.max(of_rounding);
     if digits > f64::EPSILON {
-        Limits { engineering: 0.0, arithmetic: solver, data: motion }
+        Limits { engineering: 0.0, arithmetic: solver, data: of_digits }
     } else {
-        Limits { engineering: 0.0, arithmetic: solver.max(motion), data: 0.0 }
+        Limits { engineering: 0.0, arithmetic: solver.max(of_digits), data: 0.0 }
     }
 }
 

@@ -6,11 +6,12 @@ use crate::basis::Basis;
 use crate::constraint::ConstraintModes;
 use crate::damping::Damping;
 use crate::dense;
+use crate::dofs::Direction;
 use crate::eigen::Equilibrated;
 use crate::factor::Cholesky;
 use crate::job::Expectation;
 use crate::modes::{Certificate, Retained};
-use crate::partition::Partition;
+use crate::partition::{DofOrigin, Partition, ReducedDof};
 use crate::reduction::{Reduction, sizes_of_modes, transpose_apply};
 use crate::rigid::{InterfaceRank, RigidBodyModes};
 use crate::rubin::Rubin;
@@ -77,6 +78,18 @@ impl Evidence<'_> {
         dense::product(q.as_ref(), dense::gram(q.as_ref(), momenta.as_ref()).as_ref())
     }
 
+    /// The direction of each reduced coordinate; none of those that belong to no node of the interface.
+    pub(super) fn directions(&self) -> Vec<Option<Direction>> {
+        let of = |dof: &ReducedDof| match dof.origin {
+            DofOrigin::PatchNode(_, direction) => Some(direction),
+            DofOrigin::Row(_) => dof.dof.map(|dof| dof.direction),
+            DofOrigin::Distortion(..) => None,
+        };
+        let mut directions: Vec<_> = self.partition.dofs[self.partition.n_internal..].iter().map(of).collect();
+        directions.resize(self.reduction.n_reduced(), None);
+        directions
+    }
+
     /// Zero modes of the boundary that the retained modes were computed under.
     pub(super) fn n_zero(&self) -> usize {
         self.rigid.under(self.retained.boundary).map_or(0, RigidBodyModes::count)
@@ -111,12 +124,6 @@ pub(super) fn coordinate_name(evidence: &Evidence<'_>, coordinate: usize) -> Str
 pub(super) fn data_noise(partition: &Partition) -> f64 {
     let precision = partition.precision.stiffness.share;
     if precision > f64::EPSILON { precision * partition.cancellation } else { 0.0 }
-}
-
-/// The share that the digits of K have in an error bar, the rest being that of the arithmetic.
-pub(super) fn share_of_data(partition: &Partition) -> f64 {
-    let precision = partition.precision.stiffness.share;
-    precision / (f64::EPSILON + precision)
 }
 
 /// Scales of the reduced coordinates, powers of two: near 1/√K_BB,ii for an interface dof and near 1/√K̂_ηη,ii for a mode, with what stands

@@ -5,6 +5,7 @@
 
 use super::check::Limits;
 use crate::dense::NOISE_FACTOR;
+use crate::eigen::Modes;
 use crate::partition::Partition;
 use crate::rigid::{RigidBodyModes, noise_of_digits};
 
@@ -30,6 +31,9 @@ const LARGEST_ENERGY: f64 = 1e-2;
 const LARGEST_EXPLAINED_ENERGY: f64 = 1.0 / 16.0;
 /// Relative force of a rigid-body motion at which the component is held.
 const HELD: f64 = 1e-6;
+/// Defect of a rigid-body motion that the interface carries, relative to its largest displacement, at which it is not carried: of the basis
+/// and of recovered rows, which are rows of it.
+pub(crate) const NOT_CARRIED: f64 = 1e-9;
 /// Relative error bar of a frequency that is unknown: half of it is open.
 pub(crate) const UNKNOWN: f64 = 0.5;
 /// Relative difference of a frequency that reduced models are accepted with; one that is off by more is not preserved, whatever the
@@ -91,6 +95,12 @@ pub(crate) fn n_nearly_free(ascending: &[f64], n_rigid: usize) -> usize {
     (n_rigid + 1..=MOTIONS).find(is_step).unwrap_or(n_rigid)
 }
 
+/// The share that the digits of K have in an error bar, the rest being that of the arithmetic.
+pub(super) fn share_of_data(partition: &Partition) -> f64 {
+    let precision = partition.precision.stiffness.share;
+    precision / (f64::EPSILON + precision)
+}
+
 /// Limits of an energy that should be zero, relative to that of the first elastic mode, at a noise of which the digits of the
 /// data have a share.
 pub(crate) fn of_energy(noise: f64, share_of_data: f64) -> Judged {
@@ -122,6 +132,14 @@ fn of_nothing(noise: f64, share_of_data: f64, fails_at: f64) -> Judged {
     let limits = Limits { engineering: RIGID_ENERGY, arithmetic, data }.capped(LARGEST_ENERGY, LARGEST_ENERGY);
     let explained = data.min(LARGEST_EXPLAINED_ENERGY);
     Judged { limits, fail_above: limits.value().max(fails_at).max(explained) }
+}
+
+/// Limits of the relative difference of a frequency of the full model and that of the same mode in the reduced one, for a reduction and for
+/// a comparison of its file with the model. Both values carry the rounding of their quadratic forms, for which the error bars stand; not
+/// that of the residual, which belongs to the mode.
+pub(crate) fn of_frequencies(modes: &Modes, partition: &Partition) -> Judged {
+    let bars = modes.errors.iter().map(|error| error.data_bar).fold(0.0, f64::max);
+    of_frequency(bars, share_of_data(partition))
 }
 
 /// Limits of the relative difference of two frequencies of one mode whose eigenvalue has this relative bar.

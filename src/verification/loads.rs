@@ -7,13 +7,13 @@ use super::check::{Check, Limits, MAX_EXCUSE};
 use super::conditioning::{Columns, independence};
 use super::directions::Directions;
 use super::evidence::{Evidence, data_noise};
-use crate::basis::DynamicCoordinate;
+use crate::basis::{DynamicCoordinate, clear_unloaded};
 use crate::cache::{Kind, Reader, Recorded, Writer, recalled};
 use crate::dense;
 use crate::eigen::{lowest_eigenpairs, scaled_by};
 use crate::error::Result;
 use crate::factor::SolveOperator;
-use crate::sparse::product;
+use crate::sparse::{absolute_energy, product};
 
 /// Share of each direction's inertia that a mode of the reduced model carries, its interface held.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,20 +34,25 @@ pub(super) fn accelerations(evidence: &Evidence<'_>, condition: f64) -> Option<C
     let n_i = partition.n_internal;
     let directions = Directions::of_unit_motions(evidence)?;
     let inertia = product(&partition.mass, directions.motions.as_ref());
-    let loads = inertia.as_ref().subrows(0, n_i);
+    let mut loads = inertia.as_ref().subrows(0, n_i).to_owned();
     let along = dense::gram(evidence.rigid.mass_orthonormal.as_ref(), directions.motions.as_ref());
-    let beyond = beyond_rigid(evidence, along.as_ref(), loads);
+    let beyond = beyond_rigid(evidence, along.as_ref(), loads.as_ref());
+    // An acceleration that rests on the interface deflects nothing: what rounding leaves of its load has no column, and is no size of one.
+    clear_unloaded(partition, &absolute_energy(&partition.mass, directions.motions.as_ref()), loads.as_mut());
+    let loads = loads.as_ref();
     let mut answers = dense::side_by_side(loads, beyond.as_ref());
     evidence.factor.solve_in_place(answers.as_mut());
     let (full, of_beyond) = answers.as_ref().split_at_col(directions.count());
     let reduced = reduced_deflections(evidence, loads)?;
     let error = full - &reduced;
     let forces = product(partition.internal().stiffness, error.as_ref());
-    let (mut worst, mut left) = ((0.0, None), 0.0f64);
+    let at_rest = (loads.norm_max() == 0.0).then(|| "no acceleration deflects the interior".to_owned());
+    let (mut worst, mut left) = ((0.0, at_rest), 0.0f64);
     for j in 0..directions.count() {
         let (missed, whole) = (root_of_energy(error.as_ref(), forces.as_ref(), j), root_of_energy(full, loads, j));
         let share = if missed == 0.0 { 0.0 } else { missed / whole };
-        left = left.max(root_of_energy(of_beyond, beyond.as_ref(), j) / whole);
+        let of_rest = root_of_energy(of_beyond, beyond.as_ref(), j);
+        left = left.max(if whole > 0.0 { of_rest / whole } else { 0.0 });
         if dense::worse(share, worst.0) {
             worst = (share, Some(directions.acceleration(j)));
         }

@@ -6,7 +6,7 @@ use faer::MatRef;
 
 use super::check::{Check, Limits, MAX_EXCUSE};
 use super::conditioning::{Columns, independence};
-use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms, share_of_data};
+use super::evidence::{Evidence, coordinate_name, data_noise, reduced_norms};
 use super::limits::{self, HARMLESS_COUPLING, Judged};
 use super::rigid_motion::{energy_limits, named_by_digits};
 use super::spectrum::{Spectrum, zero_level};
@@ -154,10 +154,7 @@ pub(super) fn frequency_difference(evidence: &Evidence<'_>, spectrum: &Spectrum)
             worst = (difference, Some(j));
         }
     }
-    // Both values carry the rounding of their quadratic forms, for which the error bars stand; not that of the residual,
-    // which belongs to the mode.
-    let bars = modes.errors.iter().map(|error| error.data_bar).fold(0.0, f64::max);
-    let Judged { limits, fail_above } = limits::of_frequency(bars, share_of_data(evidence.partition));
+    let Judged { limits, fail_above } = limits::of_frequencies(modes, evidence.partition);
     let (value, at) = worst;
     let of_digits = at.filter(|_| value > limits.value()).and_then(|mode| left_by_digits(evidence, mode, value));
     Check {

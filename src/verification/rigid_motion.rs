@@ -1,18 +1,17 @@
 //! Rigid-body motion passes through the model, the basis and the reduced stiffness: M-05, M-11, M-12.
 
 use super::check::{Check, Limits, MAX_EXCUSE};
-use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name, share_of_data};
+use super::evidence::{Evidence, coordinate_name, reduced_norms, rigid_name};
 use super::force;
 use super::grounding::{Grounding, Restraint};
-use super::limits::{self, Judged};
+use super::limits::{self, Judged, NOT_CARRIED, share_of_data};
 use super::residual::Worst;
 use super::spectrum::{NOT_FREE, Spectrum, zero_level};
 use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::Equilibrated;
 use crate::error::Result;
-use crate::model::ONE_PLACE;
-use crate::rigid::scales;
+use crate::rigid::{FORCE_ASKED, RigidEnergy, scales};
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
 pub(super) fn energy(evidence: &Evidence<'_>, spectrum: &Spectrum, grounding: &[Grounding]) -> Check {
@@ -67,33 +66,19 @@ pub(super) fn residual(evidence: &Evidence<'_>, grounding: &[Grounding]) -> Chec
     let precision = evidence.partition.precision.stiffness.share;
     let cancellation = evidence.partition.cancellation;
     let data = if precision > f64::EPSILON { NOISE_FACTOR * precision * cancellation } else { 0.0 };
-    // Coordinates far from the origin are rounded to that distance, and with them the levers of a rotation.
-    let arithmetic = f64::EPSILON * cancellation.max(remoteness(evidence));
-    let limits = Limits { engineering: 1e-14, arithmetic, data }.capped(MAX_EXCUSE, MAX_EXCUSE);
+    // Beyond what patches make of one rounding, coordinates and entries have roundings of their own: `rigid::rounding` derives them.
+    let RigidEnergy { largest_residual, residual_rounding, .. } = evidence.rigid.energy;
+    let arithmetic = residual_rounding.max(f64::EPSILON * cancellation);
+    let limits = Limits { engineering: FORCE_ASKED, arithmetic, data }.capped(MAX_EXCUSE, MAX_EXCUSE);
     Check {
         id: "M-05",
         name: "rigid-body motion makes no force",
         equation: "max ‖Kq‖ / ‖|K||q|‖",
-        value: evidence.rigid.energy.largest_residual,
+        value: largest_residual,
         limits,
         fail_above: limits.value().max(1e-6),
         worst: strained(grounding, |direction| direction.force_ratio),
     }
-}
-
-/// The distance of the component from the origin over its size; one where coordinates are unknown.
-fn remoteness(evidence: &Evidence<'_>) -> f64 {
-    let Some(sites) = evidence.partition.sites() else { return 1.0 };
-    let (mut farthest, mut low, mut high) = (0.0f64, [f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for site in sites.iter().flatten() {
-        for (axis, x) in site.position.into_iter().enumerate() {
-            farthest = farthest.max(x.abs());
-            (low[axis], high[axis]) = (low[axis].min(x), high[axis].max(x));
-        }
-    }
-    let size = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-    // A component at one place, but for rounding, turns about itself.
-    if size > ONE_PLACE * farthest { farthest / size } else { 1.0 }
 }
 
 /// The direction that is worst, with the dof that its force is largest at.
@@ -120,7 +105,7 @@ pub(super) fn carried_by_interface(evidence: &Evidence<'_>) -> Check {
         equation: "max |Ψ_S U_B − U_I| / max |U_I| (24), after the correction",
         value: worst.value,
         limits: Limits { engineering: 1e-12, ..Limits::default() },
-        fail_above: 1e-9,
+        fail_above: NOT_CARRIED,
         worst: worst.name(evidence, "rigid-body mode").map(|at| format!("{at}, {raw:.1e} before the correction")),
     }
 }
@@ -175,7 +160,9 @@ pub(super) fn force(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result<Chec
     let Disturbance { first, noise, share_of_data } = Disturbance::of(evidence, spectrum)?;
     let judged = limits::of_force(noise, share_of_data);
     let name = |mode: usize, at: usize| format!("{}, {}", rigid_name(evidence, mode), coordinate_name(evidence, at));
-    let check = force::of_rigid_motion(evidence.reduction.pencil(), first, judged, &name);
+    let (k, m, u) = evidence.reduction.pencil();
+    let scales = force::scales((k, m, u), first, &evidence.directions());
+    let check = force::of_rigid_motion((k, u), &scales, judged, &name);
     Ok(named_by_digits(evidence, spectrum, check))
 }
 

@@ -73,6 +73,24 @@ fn constraints_are_the_saddle_point_of_their_multipliers() {
     assert!(refused.contains("E-LAGRANGE") && refused.contains("27"), "{refused}");
 }
 
+/// A constraint of a dof that is held leaves no more than rounding of its own terms, which programs leave when they turn axes.
+#[test]
+fn rounding_in_a_constraint_next_to_a_held_dof_is_none() {
+    let (model, rows) = tied_halves([2, 2, 2], [2, 2, 2]);
+    let at = rows.iter().position(|row| row.iter().all(|(column, _)| model.dofs[*column as usize].1 == 1)).expect("uy");
+    let nodes = [rows[at][0].0, rows[at][1].0].map(|column| model.dofs[column as usize].0);
+    let ux = nodes.map(|node| model.dofs.iter().position(|dof| *dof == (node, 0)).expect("ux") as u32);
+    let held = format!("[[fixed]]\nnodes = [{}]\ndofs = [\"uy\"]\n", nodes[1]);
+    let hertz = |rows: &Rows| {
+        let case = Case::new(model.clone(), rows.clone());
+        frequencies_hz(&case.reduced(&ends(&case), r#"method = "craig-bampton", modes = { count = 6 }"#, &held))
+    };
+    let mut rounded = rows.clone();
+    rounded[at].extend([(ux[0], 1e-17), (ux[1], -1.3e-17)]);
+    rounded[at].sort_by_key(|(column, _)| *column);
+    assert_close(&hertz(&rounded), &hertz(&rows), 1e-9);
+}
+
 /// Penalties of 10^p times the stiffness come to the constraints from below, ten times as near for each power, until rounding of the penalty
 /// is more than what is left: the constraints are where they lead and cannot arrive.
 #[test]

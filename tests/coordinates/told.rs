@@ -196,6 +196,7 @@ fn expectations_without_coordinates_are_compared_in_part() {
     }
     let strict = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml"), "--strict"]);
     assert_eq!(strict.code, ExitCode::CheckFailed, "{}", strict.out);
+    assert!(!strict.out.contains("! verified") && strict.out.contains("! not accepted: "), "{}", strict.out);
     let quiet = supel(&["reduce", &place.text("job.toml"), "--strict", "--quiet"]);
     assert_eq!(quiet.code, ExitCode::CheckFailed);
     assert!(quiet.err.contains("supel: W-EXPECT-UNCHECKED: not compared"), "{}", quiet.err);

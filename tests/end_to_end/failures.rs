@@ -107,6 +107,23 @@ fn a_warning_fails_only_where_asked() {
     reduce(&expecting(1.0), &["--strict"]).expect(ExitCode::Done);
 }
 
+/// What ends with exit code 1 and without a superelement is called verified nowhere.
+#[test]
+fn a_strict_run_with_a_warning_is_called_not_accepted() {
+    let place = expecting(1.001);
+    let page = place.text("x.html");
+    let one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let told = one_line(&reduce(&place, &["--html", &page, "--strict"]).expect(ExitCode::CheckFailed).out);
+    assert!(!told.contains("! verified") && told.contains("! not accepted: 1 check past its limit (M-16)"), "{told}");
+    assert!(told.contains("--strict accepts none – no superelement was written"), "{told}");
+    let heading = |place: &Place| String::from_utf8(place.bytes("x.html")).expect("UTF-8");
+    assert!(heading(&place).contains("</span> Not accepted with checks past their limits"));
+    assert_eq!(place.report("x.report.json")["body"]["verdict"], "warn");
+    let told = reduce(&place, &["--html", &page]).expect(ExitCode::Done).out;
+    assert!(told.contains("! verified, with 1 check past its limit (M-16)"), "{told}");
+    assert!(heading(&place).contains("</span> Verified, with checks past their limits"));
+}
+
 fn small_chain() -> (Place, Vec<String>) {
     let place = Place::with(&spring(5, Ends::Free));
     let flags = place.matrix_flags();

@@ -19,6 +19,7 @@ mod penalties;
 mod recovery;
 mod reference_node;
 mod results;
+mod rounded_levers;
 mod rubin_free;
 #[cfg(feature = "hdf5")]
 mod same_bytes;

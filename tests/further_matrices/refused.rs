@@ -1,7 +1,9 @@
 //! Matrices and damping that are refused.
 
 use supel::cli::ExitCode;
+use supel_models::transform::rounded;
 use supel_models::{Inertia, Material, Section, brick, frame};
+use supel_runtime::Verdict;
 use supel_testing::place::{Place, steel_brick, supel};
 
 use super::{CRAIG_BAMPTON, Case, Entries, FOOT_AND_HUB, HERTING, any, dense, modes, skew};
@@ -228,6 +230,26 @@ fn damping_that_drives_a_motion_warns() {
     let checks = case.place.superelement("x.supel").metadata().verification.checks.clone();
     let energy = checks.iter().rev().find(|check| check.id == "M-28").expect("a record");
     assert!(energy.value.is_some_and(|value| value < 1e-6), "{energy:?}");
+}
+
+/// Where a thin plate moves as a whole, digits of K leave a force, and of damping in proportion to K a force and an energy of either sign.
+#[test]
+fn rayleigh_damping_of_few_digits_drives_no_motion() {
+    let case = Case::new(rounded(&brick([4, 2, 1], [0.3, 0.1, 0.02], &Material::STEEL_SI), 7));
+    let ends = r#"{ name = "a", nodes = [1, 6, 11, 16, 21, 26], coupling = "rigid" },
+        { name = "b", nodes = [5, 10, 15, 20, 25, 30], coupling = "rigid" }"#;
+    let law = r#"damping = { rayleigh = { mass = 1.0, stiffness = 1e-6, mass_acts_on = "deformation" } }"#;
+    case.run(ends, HERTING, law).expect(ExitCode::Done);
+    let checks = case.place.superelement("x.supel").metadata().verification.checks.clone();
+    let energy = checks.iter().rev().find(|check| check.id == "M-28").expect("a record");
+    assert_eq!(energy.verdict, Verdict::Pass, "{energy:?}");
+    assert!(energy.value.is_some_and(|value| value > 1e-6), "{energy:?}");
+    // It excuses no more than a few times what it is.
+    assert!(energy.value.is_some_and(|value| energy.limit < 100.0 * value), "{energy:?}");
+    for ended in [case.verify(&[]), case.verify_with_job()] {
+        let line = ended.out.lines().find(|line| line.contains("damping takes energy from every motion"));
+        assert!(line.is_some_and(|line| line.contains("pass")), "{}", ended.out);
+    }
 }
 
 #[test]

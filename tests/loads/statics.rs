@@ -4,7 +4,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use supel::cli::ExitCode;
 use supel_models::model::{dot, multiply};
-use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
 use supel_runtime::{Coordinate, Matrix, Superelement};
 use supel_testing::place::{Place, steel_brick, supel};
 
@@ -229,6 +229,30 @@ fn residual_vectors_that_add_nothing_are_left_out() {
         assert_eq!(names(&file), left_out, "{method}, {n_modes} modes");
         let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
         assert_eq!(ended.code, ExitCode::Done, "{method}, {n_modes} modes: {}", ended.out);
+    }
+}
+
+/// A force that the node of an averaged patch takes, an equal share at each of its nodes, leaves the interior as it was: the answer to what
+/// rounding makes of it is no residual vector.
+#[test]
+fn the_residual_vector_of_what_a_patch_takes_is_left_out() {
+    for cells in [[2, 2, 1], [4, 3, 1]] {
+        let model = brick(cells, [0.1, 0.08, 0.01], &Material::STEEL_SI);
+        let [below, above] = ["ZMIN", "ZMAX"].map(|group| format!("{:?}", model.groups[group]));
+        let interface = format!(
+            r#"{{ name = "in", nodes = {below}, coupling = "rigid" }}, {{ name = "out", nodes = {above}, coupling = "average" }}"#
+        );
+        let loads = format!(r#"{{ name = "pull", nodes = {above}, force = [0, 0, 1] }}"#);
+        for method in ["craig-bampton", "guyan", "herting"] {
+            let (interface, loads) = (interface.clone().leak(), loads.clone().leak());
+            let case = Case { name: "layer", model: model.clone(), interface, fixed: "", loads };
+            let (place, file) = case.made(method, 3);
+            let dropped: Vec<Coordinate> =
+                file.metadata().dropped.iter().map(|dropped| dropped.column.clone()).collect();
+            assert_eq!(dropped, [Coordinate::ResidualVector { load: 0 }], "{method}, {cells:?}");
+            let ended = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
+            assert_eq!(ended.code, ExitCode::Done, "{method}, {cells:?}: {}", ended.out);
+        }
     }
 }
 

@@ -237,9 +237,9 @@ fn mass_negative_by_rounding_is_a_finding() {
 #[test]
 fn turned_rows_know_what_rounding_of_a_stiff_direction_makes() {
     let six_digits = Rounding { absolute: 0.5, ..Rounding::relative(0.5e-5) };
-    let turned = six_digits.turned(TurnedRoundings { enlargement: 40.0 });
+    let turned = six_digits.turned(TurnedRoundings { enlargement: 40.0, left_out: 0.0 });
     // Relative to the ends: 40 of its own; three times half a unit of fixed point.
     assert!((turned.of_entry(0.0, 1e6) / 200.0 - 1.0).abs() < 1e-12 && turned.of_entry(0.0, 0.0) == 1.5, "{turned:?}");
-    let binary = Rounding::BINARY.turned(TurnedRoundings { enlargement: 40.0 });
+    let binary = Rounding::BINARY.turned(TurnedRoundings { enlargement: 40.0, left_out: 0.0 });
     assert!(binary.is_of_parts && !binary.is_coarse(), "{binary:?}");
 }

@@ -2,6 +2,8 @@
 
 use supel::cli::ExitCode;
 use supel_models::model::multiply;
+use supel_models::transform::{join, translated};
+use supel_testing::place::{Place, steel_brick};
 
 use super::{Case, any, difference, foot_and_hub, foot_rows, largest};
 use crate::displacements::static_answer;
@@ -179,4 +181,21 @@ fn gravity_is_carried_by_the_interface() {
         assert!(ended.err.contains("E-FLAG-TEXT"), "{}", ended.err);
     }
     case.recover(&["-o", "u.csv", "--gravity=1,2,3"]).expect(ExitCode::Usage);
+}
+
+/// Two free bodies: no direction is that of their motions, and it is said where loads of gravity are missing.
+#[test]
+fn several_bodies_have_no_loads_of_gravity() {
+    let model = join(&steel_brick(), &translated(&steel_brick(), [3.0, 0.0, 0.0]), &[]);
+    let case = Case { place: Place::with(&model), model };
+    let case =
+        case.reduced("herting", r#"{ name = "a", nodes = [1, 11, 31] }, { name = "b", nodes = [46, 56, 76] }"#, "");
+    assert!(case.place.superelement("x.supel").tensors().gravity.is_none());
+    let notes = case.place.report("x.report.json")["body"]["model"]["notes"].to_string();
+    assert!(notes.contains("the model is 2 bodies: mass properties and loads of gravity"), "{notes}");
+    let n = case.place.superelement("x.supel").n_coordinates();
+    case.table("q.csv", &case.header(), &[vec![0.0; n]]);
+    let said = case.recover(&["--loads", "f.csv", "--gravity=0,0,-9.81"]).expect(ExitCode::Usage).err;
+    assert!(said.contains("E-NO-RECOVERY") && said.contains("a model of one free body"), "{said}");
+    assert!(!said.contains("model.dofs"), "{said}");
 }

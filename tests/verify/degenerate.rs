@@ -345,6 +345,21 @@ fn straight_beams_of_lumped_masses_agree() {
     }
 }
 
+/// One end holds such a beam, and about its axis neither the stiffness nor the inertia has more than rounding: no unit, in which rounding would
+/// be a force as large as any.
+#[test]
+fn straight_beams_of_lumped_masses_agree_where_one_end_holds_them() {
+    let nodes: Vec<[f64; 3]> = (0..=6).map(|i| [0.1 * f64::from(i), 0.0, 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (0..6).map(|i| [i, i + 1]).collect();
+    let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::LumpedTranslations);
+    let place = Place::with(&model);
+    for end in [1, 7] {
+        for method in ["guyan", "guyan --inertia-relief", "craig-bampton --modes 3"] {
+            agree(&place, &place.model_flags(), &format!("--interface a={end} --method {method}"));
+        }
+    }
+}
+
 /// Rotations without inertia of a frame that is not straight: M̂ is singular, and what rounding squared leaves on its diagonal is no unit of
 /// anything.
 #[test]
@@ -383,6 +398,44 @@ fn an_average_over_all_nodes_agrees() {
         let interface = format!("interface = [{{ name = \"mean\", nodes = {all}, coupling = \"average\" }}]");
         let reduction = format!("reduction = {{ method = \"{method}\", modes = {{ count = 3 }} }}");
         agree_by_job(&chain, &format!("{interface}\n{reduction}"));
+    }
+}
+
+/// Of seven elements not even rounding is left about the axis, neither of the stiffness nor of the inertia: what moves there is compared all
+/// the same.
+#[test]
+fn a_straight_beam_of_which_nothing_is_left_about_its_axis_agrees() {
+    let nodes: Vec<[f64; 3]> = (0..=7).map(|i| [0.1 * f64::from(i), 0.0, 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (0..7).map(|i| [i, i + 1]).collect();
+    let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::LumpedTranslations);
+    let place = Place::with(&model);
+    for method in ["guyan --inertia-relief", "craig-bampton --modes 3"] {
+        agree(&place, &place.model_flags(), &format!("--interface a=1 --method {method}"));
+    }
+}
+
+/// One layer between a rigid face and one whose mean motion weighs its nodes as their mass does: translations, and on few cells rotations, load
+/// the interface alone. What rounding leaves of their load deflects the interior by nothing that a column would have to answer.
+#[test]
+fn accelerations_that_rest_on_the_interface_deflect_nothing() {
+    for [nx, ny] in [[2, 2], [4, 3]] {
+        let model = brick([nx, ny, 1], [0.05 * nx as f64, 0.04 * ny as f64, 0.01], &Material::STEEL_SI);
+        // The share of a node in the area: one for each of its faces.
+        let faces = |at: usize, n: usize| if at == 0 || at == n { 1 } else { 2 };
+        let weights: Vec<usize> = (0..=ny).flat_map(|j| (0..=nx).map(move |i| faces(i, nx) * faces(j, ny))).collect();
+        let interface = format!(
+            "interface = [{{ name = \"in\", nodes = {:?}, coupling = \"rigid\" }}, \
+             {{ name = \"out\", nodes = {:?}, coupling = \"average\", weights = {weights:?} }}]",
+            model.groups["ZMIN"], model.groups["ZMAX"]
+        );
+        for method in ["\"herting\"", "\"macneal\"", "\"craig-bampton\", inertia_relief = true"] {
+            let reduction = format!("reduction = {{ method = {method}, modes = {{ count = 3 }} }}");
+            let place = agree_by_job(&model, &format!("{interface}\n{reduction}"));
+            let n_dropped = place.superelement("x.supel").metadata().dropped.len();
+            assert!(n_dropped >= 3, "{method}: {n_dropped} left out");
+            let (value, verdict) = checked(&place, "deflection under unit accelerations");
+            assert!(value < 1e-9 && verdict == "pass", "{method}: {value} {verdict}");
+        }
     }
 }
 

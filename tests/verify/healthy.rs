@@ -196,6 +196,22 @@ fn statics_of_a_carried_body_next_to_another_one() {
     }
 }
 
+/// A chain that hangs on a soft spring from a light mass: held there it swings a thousand times slower than the free chain does at
+/// least, and rounding that is nothing of the energy of a free mode is 10⁻⁶ of its frequency. A file is judged as its reduction was.
+#[test]
+fn a_mode_far_below_those_of_the_free_component() {
+    const N: u32 = 30;
+    // Entries of all digits.
+    let uneven = |i: u32| 1.0 + 0.3 * f64::from(i).sin();
+    let masses: Vec<f64> = std::iter::once(1e-3).chain((1..=N).map(uneven)).collect();
+    let stiff = (1..N).map(|i| (i, i + 1, 3e9 * uneven(i)));
+    let between: Vec<(u32, u32, f64)> = std::iter::once((0, 1, 1.0)).chain(stiff).collect();
+    let place = Place::with(&springs(&masses, &[], &between));
+    let rest = format!("--interface a=rows:0 --interface b=rows:{N} --method mixed-interface --modes 4 --held a");
+    place.reduce(&place.matrix_flags(), &rest).expect(ExitCode::Done);
+    passes(&place, "a chain on a soft spring");
+}
+
 /// What is left of the free motions of a heavy mass is rounding, and no measure of a shift.
 #[test]
 fn a_heavy_mass_with_part_of_the_interface_held() {

@@ -14,6 +14,7 @@ use faer::{Mat, MatRef};
 use super::asked::AskedModes;
 use super::interior::{Answers, Interior, Solved, column_products};
 use super::solve_errors::{Gains, Lengths, Terms};
+use crate::basis::clear_unloaded;
 use crate::constraint::left_inverse;
 use crate::dense;
 use crate::job::Boundary;
@@ -21,7 +22,7 @@ use crate::partition::Partition;
 use crate::plan::Mass;
 use crate::random::SplitMix64;
 use crate::rigid::{RigidBodyModes, RigidSource};
-use crate::sparse::{product, product_and_terms};
+use crate::sparse::{energies_of_terms, product, product_and_terms};
 
 /// Motions of the interface that are solved at most: more dofs than these are mixed at random.
 const MAX_PROBES: usize = 256;
@@ -166,16 +167,22 @@ impl Columns {
 
     /// N of inertia relief.
     fn relieve(&mut self, follower: &mut Follower<'_>, relieved: MatRef<'_, f64>) {
-        let n_i = follower.partition.n_internal;
-        let (momenta, terms) = product_and_terms(&follower.partition.mass, relieved);
-        let relief = follower.answer(momenta.as_ref().subrows(0, n_i), terms.as_ref().subrows(0, n_i));
+        let (partition, n_i) = (follower.partition, follower.partition.n_internal);
+        let (momenta, terms) = product_and_terms(&partition.mass, relieved);
+        let mut loads = momenta.as_ref().subrows(0, n_i).to_owned();
+        // As in the reduction: what rests on the interface alone has no column.
+        clear_unloaded(partition, &energies_of_terms(relieved, terms.as_ref()), loads.as_mut());
+        let relief = follower.answer(loads.as_ref(), terms.as_ref().subrows(0, n_i));
         self.take(self.n_probes(), relief);
     }
 
     /// N of the modes of a file, which begin at this named column.
     fn answer_inertia(&mut self, follower: &mut Follower<'_>, first: usize) {
-        let inertia = follower.partition.expansion.inertia.as_ref().subrows(0, follower.partition.n_internal);
-        let answers = follower.answer(inertia, dense::absolute(inertia).as_ref());
+        let (partition, expansion) = (follower.partition, &follower.partition.expansion);
+        let mut inertia = expansion.inertia.as_ref().subrows(0, partition.n_internal).to_owned();
+        let terms: Vec<f64> = expansion.facts.iter().map(|facts| facts.terms).collect();
+        clear_unloaded(partition, &terms, inertia.as_mut());
+        let answers = follower.answer(inertia.as_ref(), dense::absolute(inertia.as_ref()).as_ref());
         self.take(self.n_probes() + first, answers);
     }
 

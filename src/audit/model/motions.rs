@@ -13,6 +13,7 @@ use crate::sparse::energies_of_terms;
 use crate::sparse::product_and_terms;
 use crate::sparse::{absolute_energy, diagonal};
 use crate::verification::check::{Check, Limits};
+use crate::verification::force;
 use crate::verification::limits::LARGEST_EXCUSE;
 use crate::verification::mass_difference;
 
@@ -201,11 +202,15 @@ impl KnownMotions {
     }
 
     /// Rows of the interface weighted by inertia, so that translations and rotations count alike. Where a motion has none the stiffness, over
-    /// the first elastic eigenvalue, stands next to it: rows of that motion alone would count for nothing.
+    /// the first elastic eigenvalue, stands next to it, or what stands for that in forces of such a motion: rows of that motion alone would
+    /// count for nothing.
     fn by_inertia(&self, file: &Scaled, a: MatRef<'_, f64>) -> Mat<f64> {
-        let of_stiffness = |i: usize| if self.n_massless > 0 { file.k[(i, i)].max(0.0) / self.first } else { 0.0 };
-        let weight = |i: usize| (file.m[(i, i)].max(0.0) + of_stiffness(i)).sqrt();
-        Mat::from_fn(a.nrows(), a.ncols(), |i, j| weight(i) * a[(i, j)])
+        let parts = (file.k.as_ref(), file.m.as_ref(), file.u.as_ref());
+        let squares: Vec<f64> = match self.n_massless {
+            0 => dense::diagonal(file.m.as_ref()),
+            _ => force::sizes(parts, self.first, &file.directions).iter().map(|size| size / self.first).collect(),
+        };
+        Mat::from_fn(a.nrows(), a.ncols(), |i, j| squares[i].max(0.0).sqrt() * a[(i, j)])
     }
 
     /// What a zero mode that is turned by a unit angle towards an elastic one is off by, seen from the interface: max ‖Q_B⁺X_B‖. Next to a

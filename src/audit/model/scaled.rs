@@ -1,9 +1,9 @@
 //! The content of the file in the scaled units of the partition.
 
 use faer::Mat;
-use supel_runtime::{Coordinate, Matrix, Precision, Superelement};
+use supel_runtime::{Coordinate, Direction, Matrix, Precision, Superelement};
 
-use crate::audit::content::{has_mass, unit_mass};
+use crate::audit::content::{directions, has_mass, unit_mass};
 use crate::dense::unpacked;
 use crate::partition::{CarriedMatrix, Partition};
 
@@ -30,6 +30,8 @@ pub(super) struct Scaled {
     /// C, n_η × n_η.
     pub(super) mixing: Option<Mat<f64>>,
     pub(super) n_b: usize,
+    /// Of each coordinate, where it has one.
+    pub(super) directions: Vec<Option<Direction>>,
     /// λ of the stated frequencies.
     pub(super) lambda: Vec<f64>,
 }
@@ -84,6 +86,7 @@ impl Scaled {
             },
             mixing: mixing.map(|c| Mat::from_fn(c.nrows(), c.ncols(), |i, j| c[(i, j)] / named(&coordinates[i]))),
             n_b,
+            directions: directions(superelement),
             lambda: tensors.frequencies.iter().map(|omega| omega * omega / units.eigenvalue_unit()).collect(),
         }
     }

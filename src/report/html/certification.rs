@@ -6,7 +6,7 @@ use super::{checks, document, preservation};
 use crate::certification::JudgedPair;
 use crate::number::{counted, decade, scientific};
 use crate::report::certification::{kind_word, pair_in_words, verdict_of};
-use crate::report::{CertificationReport, CertifiedModel, Generator, ReducedReport};
+use crate::report::{CertificationReport, CertifiedModel, Generator, ReducedReport, Reservations};
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
 
@@ -18,7 +18,7 @@ const OF_SUPERELEMENT: &str = "Says how far the superelement is that of its basi
                                them. Does not validate the finite element model.";
 
 /// The page, UTF-8, HTML and well-formed XML at once.
-pub(in crate::report) fn of_pairs(report: &CertificationReport) -> String {
+pub(in crate::report) fn of_pairs(report: &CertificationReport, reservations: Reservations) -> String {
     let CertificationReport { model, result, certification, .. } = report;
     let dofs = counted(model.n_dofs, "degree of freedom", "degrees of freedom");
     document(&format!("Certification of eigenpairs, {dofs}"), |page| {
@@ -27,7 +27,7 @@ pub(in crate::report) fn of_pairs(report: &CertificationReport) -> String {
             kind: "eigenpairs",
             generator: &report.generator,
             checks: &certification.checks,
-            verdict: certification.verdict(),
+            verdict: (certification.verdict(), reservations),
             scope: OF_PAIRS,
             model,
             subject: ("Result", result_in_words(report)),
@@ -42,7 +42,7 @@ pub(in crate::report) fn of_pairs(report: &CertificationReport) -> String {
 }
 
 /// The page, UTF-8, HTML and well-formed XML at once.
-pub(in crate::report) fn of_superelement(report: &ReducedReport) -> String {
+pub(in crate::report) fn of_superelement(report: &ReducedReport, reservations: Reservations) -> String {
     let ReducedReport { model, source, certification, .. } = report;
     let dofs = counted(model.n_dofs, "degree of freedom", "degrees of freedom");
     document(&format!("Certification of a superelement, {dofs}"), |page| {
@@ -51,7 +51,7 @@ pub(in crate::report) fn of_superelement(report: &ReducedReport) -> String {
             kind: "a superelement",
             generator: &report.generator,
             checks: &certification.checks,
-            verdict: certification.verdict(),
+            verdict: (certification.verdict(), reservations),
             scope: OF_SUPERELEMENT,
             model,
             subject: ("Superelement", counted(certification.n_coordinates, "coordinate", "coordinates")),
@@ -80,7 +80,7 @@ struct Front<'a> {
     kind: &'static str,
     generator: &'a Generator,
     checks: &'a [Check],
-    verdict: Verdict,
+    verdict: (Verdict, Reservations),
     scope: &'static str,
     model: &'a CertifiedModel,
     subject: (&'static str, String),
@@ -95,11 +95,12 @@ impl Front<'_> {
         page.raw("<section id=\"verdict\" aria-labelledby=\"verdict-heading\">\n");
         page.classed("p", "kind", &format!("Certification of {kind} by {} {}", generator.name, generator.version));
         let (sign, word) = match self.verdict {
-            Verdict::Info | Verdict::Pass => ("✓", "Certified"),
-            Verdict::Warn => ("!", "Certified, with checks past their limits"),
-            Verdict::Fail => ("✗", "Not certified"),
+            (Verdict::Info | Verdict::Pass, _) => ("✓", "Certified"),
+            (Verdict::Warn, Reservations::Accepted) => ("!", "Certified, with checks past their limits"),
+            (Verdict::Warn, Reservations::Refused) => ("!", "Not accepted with checks past their limits"),
+            (Verdict::Fail, _) => ("✗", "Not certified"),
         };
-        page.raw(&format!("<div class=\"box {}\">\n", class_of(self.verdict)));
+        page.raw(&format!("<div class=\"box {}\">\n", class_of(self.verdict.0)));
         page.raw(&format!("<h1 id=\"verdict-heading\"><span aria-hidden=\"true\">{sign}</span> {word}</h1>\n"));
         page.paragraph(&(counts_of(self.checks).join("; ") + "."));
         page.raw("</div>\n");

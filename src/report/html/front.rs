@@ -4,9 +4,9 @@ use super::markup::{Markup, class_of, escaped};
 use super::plot::power_of_ten;
 use crate::number;
 use crate::number::{counted, no_less_than, quantity, scientific};
-use crate::report::conclusion::reserved_as;
+use crate::report::conclusion::{Reservations, reserved_as};
 use crate::report::words;
-use crate::report::{Completeness, MatrixReport, ModelReport, ReductionReport, ReportBody, RunFacts};
+use crate::report::{Completeness, MatrixReport, ModelReport, ReductionReport, Report, ReportBody, RunFacts};
 use crate::verification::check::{Check, Verdict};
 use crate::verification::preservation::Preservation;
 
@@ -32,15 +32,17 @@ pub(super) fn of_run(page: &mut Markup, run: &RunFacts) {
     page.raw("</header>\n");
 }
 
-pub(super) fn front(page: &mut Markup, body: &ReportBody) {
+pub(super) fn front(page: &mut Markup, report: &Report) {
+    let body = &report.body;
     page.raw("<section id=\"verdict\" aria-labelledby=\"verdict-heading\">\n");
     let generator = format!("Reduction report by {} {}", body.generator.name, body.generator.version);
     page.classed("p", "kind", &generator);
     let verdict = body.verdict();
-    let (sign, word) = match verdict {
-        Verdict::Info | Verdict::Pass => ("✓", "Verified".to_owned()),
-        Verdict::Warn => ("!", format!("Verified, {}", reserved_as(&body.checks, body.warnings.len()))),
-        Verdict::Fail => ("✗", "Not verified".to_owned()),
+    let (sign, word) = match (verdict, report.run.reservations) {
+        (Verdict::Info | Verdict::Pass, _) => ("✓", "Verified".to_owned()),
+        (Verdict::Warn, Reservations::Accepted) => ("!", format!("Verified, {}", reserved(body))),
+        (Verdict::Warn, Reservations::Refused) => ("!", format!("Not accepted {}", reserved(body))),
+        (Verdict::Fail, _) => ("✗", "Not verified".to_owned()),
     };
     page.raw(&format!("<div class=\"box {}\">\n", class_of(verdict)));
     page.raw(&format!("<h1 id=\"verdict-heading\"><span aria-hidden=\"true\">{sign}</span> {word}</h1>\n"));
@@ -101,6 +103,10 @@ fn counts(body: &ReportBody) -> String {
         parts.push(counted(body.warnings.len(), "warning", "warnings"));
     }
     parts.join("; ") + "."
+}
+
+fn reserved(body: &ReportBody) -> &'static str {
+    reserved_as(&body.checks, body.warnings.len())
 }
 
 /// How many checks passed, and which did not.

@@ -43,7 +43,7 @@ pub fn html(report: &Report) -> String {
     document(&format!("Reduction report: {}, {sizes}", body.reduction.method.name()), |page| {
         front::of_run(page, &report.run);
         page.raw("<main>\n<div id=\"body\">\n");
-        front::front(page, body);
+        front::front(page, report);
         contents(page);
         let [rigid, modes, preservation, response, size, checks, run] = CONTENTS;
         page.section(rigid.0, rigid.1, |page| rigid_body::rigid_body(page, body));

@@ -83,7 +83,7 @@ fn verdict(page: &mut Page, report: &Report) {
         body.model.stiffness.digits.are_all() && body.model.mass.as_ref().is_none_or(|mass| mass.digits.are_all());
     let digits = if has_all { MatrixDigits::All } else { MatrixDigits::Fewer };
     let open = Open { share: known.fold(0.0, f64::max), digits };
-    let text = conclusion(&body.checks, body.warnings.len(), verdict, &open);
+    let text = conclusion(&body.checks, body.warnings.len(), (verdict, report.run.reservations), &open);
     let text = if report.run.superelement.is_none() { text + " – no superelement was written" } else { text };
     for line in table::wrap(&text, WIDTH) {
         page.line(Page::toned(&line, Tone::Of(verdict)));

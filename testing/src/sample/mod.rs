@@ -14,8 +14,8 @@ use supel::outcome::Outcome;
 use supel::report::FacesReport;
 use supel::report::{
     Completeness, DroppedCoordinate, Generator, InterfacePosition, InterfaceReport, MassProperties, MatrixReport,
-    ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody, RigidBodyModes,
-    RunFacts, StageTime, WorkCounters,
+    ModeKind, ModeRow, ModelReport, Observer, PositionOrigin, ReductionReport, Report, ReportBody, Reservations,
+    RigidBodyModes, RunFacts, StageTime, WorkCounters,
 };
 use supel::rigid::RigidSource;
 use supel::verification::check::{Check, Limits};
@@ -197,6 +197,7 @@ fn run_facts() -> RunFacts {
             damaged: BTreeSet::new(),
             not_kept: None,
         }),
+        reservations: Reservations::Accepted,
     }
 }
 

@@ -80,4 +80,5 @@ fn what_could_not_be_compared_is_a_warning() {
     certify(&place, "").expect(ExitCode::Done);
     let told = certify(&place, "--strict").expect(ExitCode::CheckFailed).out;
     assert!(told.contains("M-33") && told.contains("statics, other boundaries and responses"), "{told}");
+    assert!(!told.contains("! certified") && told.contains("! not accepted: "), "{told}");
 }
