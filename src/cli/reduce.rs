@@ -170,7 +170,7 @@ fn stage_all<'a>(
     let write = &command.job.write;
     let mut files: Vec<(PathBuf, String)> = vec![(write.report_path(), report.to_json()?)];
     files.extend(write.html.clone().map(|path| (path, html(report))));
-    files.extend(write.junit.clone().map(|path| (path, junit(report, report.run.reservations))));
+    files.extend(write.junit.clone().map(|path| (path, junit(report))));
     let mut outputs = Outputs::new(own);
     files.iter().try_for_each(|(path, text)| outputs.stage(path, text.as_bytes()))?;
     superelement.into_iter().for_each(|file| outputs.push(file));

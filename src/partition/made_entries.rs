@@ -10,8 +10,7 @@ use faer::MatRef;
 
 use super::noise::WIDTH;
 use super::partition::Partition;
-use super::roundings::{Entry, PatchEntries};
-use super::transformation::DofOrigin;
+use super::roundings::{Entry, PatchEntries, own_entries};
 use crate::sparse::{SparseMatrix, diagonal, ends};
 
 impl Partition {
@@ -19,44 +18,36 @@ impl Partition {
     /// are those that were read.
     pub fn rounding_of_made_entries(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Vec<f64> {
         let mut found = vec![0.0; x.ncols()];
+        let weights: Vec<f64> = lambda.iter().map(|lambda| lambda.abs()).collect();
         let matrices = [
-            (&self.stiffness, &self.patches, self.precision.stiffness.made),
-            (&self.mass, &self.mass_patches, self.precision.mass.made),
+            (&self.stiffness, &self.patches, self.precision.stiffness.made, vec![1.0; lambda.len()]),
+            (&self.mass, &self.mass_patches, self.precision.mass.made, weights),
         ];
-        for (which, (matrix, patches, made)) in matrices.into_iter().enumerate().filter(|(_, (_, _, made))| *made > 0.0)
-        {
+        for (matrix, patches, made, weights) in matrices.into_iter().filter(|(_, _, made, _)| *made > 0.0) {
             let entries = self.entries_by_size(matrix, patches);
-            for (first, found) in (0..x.ncols()).step_by(WIDTH).zip(found.chunks_mut(WIDTH)) {
+            let panels = found.chunks_mut(WIDTH).zip(weights.chunks(WIDTH));
+            for (first, (found, weights)) in (0..x.ncols()).step_by(WIDTH).zip(panels) {
                 let sums = sums_of(&entries, &self.extended(x.subcols(first, found.len())));
-                for (j, found) in found.iter_mut().enumerate() {
-                    let weight = if which == 0 { 1.0 } else { lambda[first + j].abs() };
-                    *found += 0.5 * f64::EPSILON * made * weight * sums[j];
-                }
+                let columns = found.iter_mut().zip(weights).zip(sums);
+                columns.for_each(|((found, weight), sum)| *found += 0.5 * f64::EPSILON * made * weight * sum);
             }
         }
         found
     }
 
-    /// s_ij of the upper triangle, at places of the motion extended by the rows of patches.
+    /// s_ij, one of each pair, at places of the motion extended by the rows of patches.
     fn entries_by_size(&self, matrix: &SparseMatrix, patches: &PatchEntries) -> Vec<Entry> {
-        let followed = self.transformation.followed();
-        let is_own = |dof: usize| matches!(self.dofs[dof].origin, DofOrigin::Row(_)) && !followed[dof];
         let mut diagonal = diagonal(matrix);
         diagonal.resize(matrix.rows() + patches.rows.len(), 0.0);
         for entry in patches.entries.iter().filter(|entry| entry.row == entry.col) {
             diagonal[entry.row as usize] = entry.value;
         }
-        let own = (0..matrix.rows()).filter(|row| is_own(*row)).flat_map(|row| {
-            let view = matrix.outer_view(row);
-            let columns = view.iter().flat_map(|view| view.iter()).map(|(col, value)| (col, *value));
-            let upper: Vec<(usize, f64)> = columns.filter(|(col, _)| *col <= row && is_own(*col)).collect();
-            upper.into_iter().map(move |(col, value)| Entry { row: row as u32, col: col as u32, value })
-        });
-        let sized = |entry: Entry| {
-            let ends = ends(&diagonal, entry.row as usize, entry.col as usize);
-            Entry { value: entry.value.abs().max(ends), ..entry }
-        };
-        own.chain(patches.entries.iter().copied()).map(sized).collect()
+        let mut entries = own_entries(matrix, &self.transformation);
+        entries.extend_from_slice(&patches.entries);
+        for Entry { row, col, value } in &mut entries {
+            *value = value.abs().max(ends(&diagonal, *row as usize, *col as usize));
+        }
+        entries
     }
 }
 

@@ -98,6 +98,19 @@ impl PatchEntries {
     }
 }
 
+/// The entries of a matrix of a partition, one of each pair, without those that patches and constraints have taken up.
+pub(super) fn own_entries(matrix: &SparseMatrix, transformation: &Transformation) -> Vec<Entry> {
+    let (dofs, followed) = (&transformation.dofs, transformation.followed());
+    let is_own = |dof: usize| matches!(dofs[dof].origin, DofOrigin::Row(_)) && !followed[dof];
+    let mut entries = Vec::new();
+    for row in (0..dofs.len()).filter(|row| is_own(*row)) {
+        let view = matrix.outer_view(row);
+        let upper = view.iter().flat_map(|view| view.iter()).filter(|(col, _)| *col <= row && is_own(*col));
+        entries.extend(upper.map(|(col, value)| Entry { row: row as u32, col: col as u32, value: *value }));
+    }
+    entries
+}
+
 /// What the roundings of the entries of a matrix are relative to.
 struct Sizes {
     rounding: Rounding,
@@ -129,18 +142,12 @@ impl Roundings {
         patches: &PatchEntries,
         rounding: Rounding,
     ) -> Self {
-        let (size, followed) = (Sizes::of(matrix, rounding), transformation.followed());
-        let dofs = &transformation.dofs;
-        let is_own = |dof: usize| matches!(dofs[dof].origin, DofOrigin::Row(_)) && !followed[dof];
-        let mut entries = patches.entries.clone();
-        for row in (0..dofs.len()).filter(|row| is_own(*row)) {
-            let view = matrix.outer_view(row);
-            let upper = view.iter().flat_map(|view| view.iter()).filter(|(col, _)| *col <= row && is_own(*col));
-            entries.extend(upper.map(|(col, value)| {
-                let value = size.of_entry(*value, row, col);
-                Entry { row: row as u32, col: col as u32, value }
-            }));
+        let size = Sizes::of(matrix, rounding);
+        let mut entries = own_entries(matrix, transformation);
+        for Entry { row, col, value } in &mut entries {
+            *value = size.of_entry(*value, *row as usize, *col as usize);
         }
+        entries.extend_from_slice(&patches.entries);
         // A zero in fixed point is a small number that was rounded.
         entries.retain(|entry| entry.value != 0.0 || rounding.absolute > 0.0);
         entries.par_sort_unstable_by(|a, b| {

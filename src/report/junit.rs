@@ -26,9 +26,9 @@ enum Outcome {
 }
 
 /// One suite for the run; a test for each check, one for completeness, one for each warning. Values past their limits, warnings and a missing
-/// certificate have passed, with what they say as output, where they are accepted.
-pub fn junit(report: &Report, reservations: Reservations) -> String {
-    let body = &report.body;
+/// certificate have passed, with what they say as output, where the run accepts them.
+pub fn junit(report: &Report) -> String {
+    let (body, reservations) = (&report.body, report.run.reservations);
     let mut cases = of_checks(&body.checks, reservations);
     cases.push(("completeness of the modes".to_owned(), of_completeness(&body.completeness, reservations)));
     cases.extend(body.warnings.iter().map(|warning| (warning.code.to_owned(), of_warning(warning, reservations))));

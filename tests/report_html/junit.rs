@@ -19,7 +19,7 @@ fn cases<'a>(document: &'a Document<'_>) -> Vec<(&'a str, &'a str)> {
 
 #[test]
 fn one_suite_with_a_test_for_each_check() {
-    let xml = junit(&sample::full_report(), Reservations::Accepted);
+    let xml = junit(&sample::full_report());
     let document = Document::parse(&xml).expect("well-formed");
     assert_eq!(
         cases(&document),
@@ -47,17 +47,20 @@ fn one_suite_with_a_test_for_each_check() {
 fn warnings_fail_where_strictness_asks_and_a_missing_certificate_is_skipped() {
     let mut report = sample::full_report();
     report.body.completeness = Completeness::NotCertified { reason: "--certify none was asked".to_owned() };
-    let xml = junit(&report, Reservations::Refused);
+    report.run.reservations = Reservations::Refused;
+    let xml = junit(&report);
     let document = Document::parse(&xml).expect("well-formed");
     let outcomes: Vec<&str> = cases(&document).into_iter().map(|(_, outcome)| outcome).collect();
     assert_eq!(outcomes, ["", "failure", "failure", "system-out", "skipped", "failure"]);
     report.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 7, doubt: 0.0 };
-    let xml = junit(&report, Reservations::Accepted);
+    report.run.reservations = Reservations::Accepted;
+    let xml = junit(&report);
     assert_eq!(cases(&Document::parse(&xml).expect("well-formed"))[4].1, "failure");
     // Equal counts with signs that are not certain: a warning.
     report.body.completeness = Completeness::SturmCount { below_hz: 1.0, n_counted: 8, n_found: 8, doubt: 1.5 };
-    for (warnings, expected) in [(Reservations::Accepted, "system-out"), (Reservations::Refused, "failure")] {
-        let xml = junit(&report, warnings);
+    for (reservations, expected) in [(Reservations::Accepted, "system-out"), (Reservations::Refused, "failure")] {
+        report.run.reservations = reservations;
+        let xml = junit(&report);
         assert_eq!(cases(&Document::parse(&xml).expect("well-formed"))[4].1, expected);
     }
 }
@@ -69,7 +72,8 @@ fn hostile_text_and_repeated_names_leave_it_well_formed() {
     report.body.checks[2].worst = Some(hostile.to_owned());
     report.body.checks.push(report.body.checks[2].clone());
     report.body.warnings.push(Warning { code: "W-INTERFACE-ILL", message: hostile.to_owned() });
-    let xml = junit(&report, Reservations::Refused);
+    report.run.reservations = Reservations::Refused;
+    let xml = junit(&report);
     let document = Document::parse(&xml).expect("well-formed");
     let mut names: Vec<&str> = cases(&document).into_iter().map(|(name, _)| name).collect();
     let n_cases = names.len();

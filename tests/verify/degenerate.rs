@@ -329,14 +329,21 @@ pub(super) fn agree_by_job(model: &Model, of_reduction: &str) -> Place {
     place
 }
 
+const ALONG_X: [f64; 3] = [1.0, 0.0, 0.0];
+
+/// A straight beam of so many elements whose masses are lumped, without inertia of rotations.
+fn straight_beam(n: i32, axis: [f64; 3]) -> Model {
+    let nodes: Vec<[f64; 3]> = (0..=n).map(|i| axis.map(|cosine| 0.1 * f64::from(i) * cosine)).collect();
+    let edges: Vec<[usize; 2]> = (0..n as usize).map(|i| [i, i + 1]).collect();
+    frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::LumpedTranslations)
+}
+
 /// A straight beam of lumped masses turns about its axis without energy and without inertia, whatever its direction is and how many elements it
 /// has: what rounding leaves of that inertia is none for the file as for the model.
 #[test]
 fn straight_beams_of_lumped_masses_agree() {
-    for (n, axis) in [1, 2, 10].into_iter().flat_map(|n| [(n, [1.0, 0.0, 0.0]), (n, [0.6, 0.64, 0.48])]) {
-        let nodes: Vec<[f64; 3]> = (0..=n).map(|i| axis.map(|cosine| 0.1 * f64::from(i) * cosine)).collect();
-        let edges: Vec<[usize; 2]> = (0..n as usize).map(|i| [i, i + 1]).collect();
-        let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::LumpedTranslations);
+    for (n, axis) in [1, 2, 10].into_iter().flat_map(|n| [(n, ALONG_X), (n, [0.6, 0.64, 0.48])]) {
+        let model = straight_beam(n, axis);
         for method in ["guyan", "craig-bampton --modes 3"] {
             let place = Place::with(&model);
             let ends = format!("--interface a=1 --interface b={}", n + 1);
@@ -349,10 +356,7 @@ fn straight_beams_of_lumped_masses_agree() {
 /// be a force as large as any.
 #[test]
 fn straight_beams_of_lumped_masses_agree_where_one_end_holds_them() {
-    let nodes: Vec<[f64; 3]> = (0..=6).map(|i| [0.1 * f64::from(i), 0.0, 0.0]).collect();
-    let edges: Vec<[usize; 2]> = (0..6).map(|i| [i, i + 1]).collect();
-    let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::LumpedTranslations);
-    let place = Place::with(&model);
+    let place = Place::with(&straight_beam(6, ALONG_X));
     for end in [1, 7] {
         for method in ["guyan", "guyan --inertia-relief", "craig-bampton --modes 3"] {
             agree(&place, &place.model_flags(), &format!("--interface a={end} --method {method}"));
@@ -405,10 +409,7 @@ fn an_average_over_all_nodes_agrees() {
 /// the same.
 #[test]
 fn a_straight_beam_of_which_nothing_is_left_about_its_axis_agrees() {
-    let nodes: Vec<[f64; 3]> = (0..=7).map(|i| [0.1 * f64::from(i), 0.0, 0.0]).collect();
-    let edges: Vec<[usize; 2]> = (0..7).map(|i| [i, i + 1]).collect();
-    let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::LumpedTranslations);
-    let place = Place::with(&model);
+    let place = Place::with(&straight_beam(7, ALONG_X));
     for method in ["guyan --inertia-relief", "craig-bampton --modes 3"] {
         agree(&place, &place.model_flags(), &format!("--interface a=1 --method {method}"));
     }
