@@ -119,7 +119,8 @@ pub(crate) fn with_component<T>(
 
     observer.stage("constraint modes");
     let Constrained { modes: held, rigid, rank, loose, n_factorisations } =
-        constrained(partition, (&factor, plan.statics()), rigid, rank)?;
+        constrained(partition, (&factor, plan.statics()), rigid, rank)
+            .map_err(|error| naming_unloaded(error, &plan))?;
     loose.refuse_unmeant(plan.job().model.mechanisms, partition, &rigid)?;
     let component = Component::new(partition, &analysis, &factor, &rigid, held.as_ref());
     let n_other_factors = n_extra + n_factorisations;

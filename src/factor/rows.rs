@@ -186,7 +186,8 @@ impl<T: Entry, const W: usize> WithSimd for Kernel<'_, T, W> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        match W / S::F64_LANES {
+        // A constant, so that of the arms all but one are never compiled.
+        match const { W / S::F64_LANES } {
             1 => self.with_vectors::<S, 1, 8>(simd),
             2 if S::REGISTER_COUNT >= 32 => self.with_vectors::<S, 2, 8>(simd),
             2 => self.with_vectors::<S, 2, 4>(simd),
@@ -304,6 +305,16 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         }
     }
 
+    /// −x, by a loop: the maps of arrays are calls where a compiler does not inline them.
+    #[inline(always)]
+    fn negated(&self, x: &[S::f64s; V]) -> [S::f64s; V] {
+        let mut negative = *x;
+        for entry in &mut negative {
+            *entry = self.0.neg_f64s(*entry);
+        }
+        negative
+    }
+
     /// X ← L⁻¹ X for the triangle L of a panel.
     #[inline(always)]
     fn solve<T: Entry, const N: usize>(&self, triangle: &[T], diagonal: Diagonal<'_>, x: &mut [[S::f64s; V]]) {
@@ -311,8 +322,10 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         let triangle = triangle.as_chunks::<N>().0;
         for j in 0..N {
             let inverse = simd.splat_f64s(diagonal.inverse(triangle[j][j]));
-            x[j] = x[j].map(|x| simd.mul_f64s(x, inverse));
-            let negative = x[j].map(|x| simd.neg_f64s(x));
+            for entry in &mut x[j] {
+                *entry = simd.mul_f64s(*entry, inverse);
+            }
+            let negative = self.negated(&x[j]);
             for i in j + 1..N {
                 let entry = simd.splat_f64s(triangle[i][j].into());
                 for v in 0..V {
@@ -334,8 +347,10 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         let triangle = triangle.as_chunks::<N>().0;
         for j in (0..N).rev() {
             let inverse = simd.splat_f64s(diagonal.inverse(triangle[j][j]));
-            x[j] = x[j].map(|x| simd.mul_f64s(x, inverse));
-            let negative = x[j].map(|x| simd.neg_f64s(x));
+            for entry in &mut x[j] {
+                *entry = simd.mul_f64s(*entry, inverse);
+            }
+            let negative = self.negated(&x[j]);
             for i in 0..j {
                 let entry = simd.splat_f64s(triangle[j][i].into());
                 for v in 0..V {
@@ -354,7 +369,10 @@ impl<S: Simd, const V: usize, const C: usize> Unit<S, V, C> {
         rows: &mut [[S::f64s; V]],
     ) {
         let simd = self.0;
-        let negative: [[S::f64s; V]; N] = std::array::from_fn(|k| x[k].map(|x| simd.neg_f64s(x)));
+        let mut negative = [[simd.splat_f64s(0.0); V]; N];
+        for (negative, x) in negative.iter_mut().zip(x) {
+            *negative = self.negated(x);
+        }
         for (i, (row, entries)) in rows.iter_mut().zip(a.as_chunks::<N>().0).enumerate() {
             prefetch(next, i * N);
             let mut sum = *row;

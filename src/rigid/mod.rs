@@ -12,6 +12,7 @@
 //! matrices, by inverse iteration. Their number is never assumed: it is the number of motions without energy that K has.
 
 mod algebraic;
+mod confirmed_rank;
 mod energy;
 mod facts;
 mod geometric;
@@ -28,13 +29,14 @@ pub use algebraic::from_matrices;
 pub(crate) use algebraic::{
     ZeroModes, bar_of_digits, found_zero_modes, is_uncounted, lost_interface, refuse_uncounted, zero_modes,
 };
+pub use confirmed_rank::confirmed_rank;
 pub(crate) use energy::{noise_of_digits, shown_below_zero, zero_energy};
 pub use facts::facts;
 pub(crate) use geometric::{moving_directions, settled};
 pub use of_partition::{counted_by_matrices, from_coordinates, rigid_body_modes};
 pub use passing::with_passing;
 pub(crate) use passing::{n_moving_less, n_passing, passing_motions, that_pass};
-pub use rank::{ILL_CONDITIONED, InterfaceRank, confirmed_rank, interface_rank, or_lack_of_rank};
+pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank, or_lack_of_rank};
 pub(crate) use rank::{scales, unit_motions};
 pub(crate) use residual::FORCE_ASKED;
 pub use rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};

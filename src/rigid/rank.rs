@@ -8,17 +8,13 @@ use faer::Mat;
 use super::rigid_body_modes::RigidBodyModes;
 use crate::dense;
 use crate::dofs::gyration;
-use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
 use crate::error::{Error, Result};
-use crate::factor::Cholesky;
-use crate::job::Eigensolver;
 use crate::model::{Finding, ONE_PLACE, Site};
 use crate::partition::{DofOrigin, Partition};
-use crate::random::SEED;
 use crate::sparse::diagonal;
 
 /// Below this ratio of singular values the interface does not react a motion.
-const RANK_TOLERANCE: f64 = 1e-10;
+pub(super) const RANK_TOLERANCE: f64 = 1e-10;
 /// Below this ratio the interface reacts it badly: digits are lost in K_II, and the report warns.
 pub const ILL_CONDITIONED: f64 = 1e-2;
 
@@ -38,28 +34,6 @@ pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<I
     rank_within(partition, rigid, RANK_TOLERANCE)
 }
 
-/// Looks again at an interface that reacts a motion by no more than the digits of K turn the motions themselves: K_II is singular
-/// but for rounding where its lowest eigenvalue is rounding.
-///
-/// # Errors
-/// A rigid-body motion leaves the interface at rest as far as the digits tell; the eigensolver fails.
-pub fn confirmed_rank(
-    partition: &Partition,
-    rigid: &RigidBodyModes,
-    rank: InterfaceRank,
-    factor: &Cholesky<'_>,
-) -> Result<InterfaceRank> {
-    if rank.singular_ratio > rigid.energy.angle || partition.n_internal == 0 {
-        return Ok(rank);
-    }
-    let request = ModeRequest { wanted: Wanted::Count(1), eigensolver: Eigensolver::Lanczos, seed: SEED };
-    let lowest = elastic_modes(partition.held_problem(), &Factored::new(factor, 0.0), request)?;
-    match lowest.errors.first() {
-        Some(error) if error.data_bar >= 1.0 => rank_within(partition, rigid, rigid.energy.angle),
-        _ => Ok(rank),
-    }
-}
-
 /// Why K_II could not be factored: the interface, where it reacts a motion so badly that few digits leave nothing of that in
 /// K_II, or else the error itself.
 pub fn or_lack_of_rank(error: Error, partition: &Partition, rigid: &RigidBodyModes) -> Error {
@@ -70,7 +44,7 @@ pub fn or_lack_of_rank(error: Error, partition: &Partition, rigid: &RigidBodyMod
 }
 
 /// The rank of U_B by singular values above a share of the largest.
-fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) -> Result<InterfaceRank> {
+pub(super) fn rank_within(partition: &Partition, rigid: &RigidBodyModes, tolerance: f64) -> Result<InterfaceRank> {
     let (n_i, n_b, n_r) = (partition.n_internal, partition.n_interface(), rigid.count());
     // Without an interface nothing has to be reacted: the modes are those of the free component.
     if n_r == 0 || n_b == 0 {

@@ -182,7 +182,7 @@ impl<const W: usize, const N: usize, F: Terms<N>> WithSimd for RowSums<'_, W, N,
     /// In the widest vectors that the processor has and that a group fills; a product and a sum are rounded one by one all the same.
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        match W / S::F64_LANES {
+        match const { W / S::F64_LANES } {
             1 => self.in_vectors::<S, 1>(simd),
             2 => self.in_vectors::<S, 2>(simd),
             _ => self.in_vectors::<Scalar, W>(Scalar),

@@ -356,10 +356,13 @@ fn straight_beams_of_lumped_masses_agree() {
 /// be a force as large as any.
 #[test]
 fn straight_beams_of_lumped_masses_agree_where_one_end_holds_them() {
-    let place = Place::with(&straight_beam(6, ALONG_X));
-    for end in [1, 7] {
-        for method in ["guyan", "guyan --inertia-relief", "craig-bampton --modes 3"] {
-            agree(&place, &place.model_flags(), &format!("--interface a={end} --method {method}"));
+    // How much rounding leaves of the inertia depends on the number of elements: of thirteen, something.
+    for n in [6, 10, 13] {
+        let place = Place::with(&straight_beam(n, ALONG_X));
+        for end in [1, n + 1] {
+            for method in ["guyan", "guyan --inertia-relief", "craig-bampton --modes 4"] {
+                agree(&place, &place.model_flags(), &format!("--interface a={end} --method {method}"));
+            }
         }
     }
 }

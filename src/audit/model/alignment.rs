@@ -142,8 +142,13 @@ fn seen(file: &Scaled, projected: &Projected, mixing: Option<MatRef<'_, f64>>) -
     let mut add = |weight: f64, pair: [Mat<f64>; 2]| pairs.push(pair.map(|a| a * faer::Scale(weight)));
     let [stiffness, mass] = [&projected.stiffness, &projected.mass].map(|form| |j: usize| form.matrix[(j, j)].max(0.0));
     let softest = (0..p).filter(|j| projected.is_stiff(*j)).map(|j| mass(j) / stiffness(j)).fold(0.0, f64::max);
-    // A rotation without inertia has what rounding squares leave, and divided by that its rounding would be all that is seen.
-    let inertia = |j: usize| mass(j).max(NO_MASS * softest * stiffness(j)).max(f64::MIN_POSITIVE).sqrt();
+    // A rotation without inertia has what rounding squares leave, and divided by that its rounding would be all that is seen: next to the
+    // energy of other motions it is nothing, and where it has no energy either it is no more than what its own column may be off by.
+    let of_rounding = |j: usize| NOISE_FACTOR * projected.mass.errors[j];
+    let inertia = |j: usize| match mass(j).max(NO_MASS * softest * stiffness(j)).sqrt() {
+        length if length > of_rounding(j) => length,
+        _ => f64::INFINITY,
+    };
     let coupling = dense::product(projected.probes.transpose(), file.m.as_ref().subrows(0, file.n_b));
     let weighted = |a: Mat<f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)] / inertia(i));
     let known = projected.reduced_mass().matrix.as_ref().submatrix(0, p, p, n_named).to_owned();
