@@ -160,7 +160,12 @@ fn solved(mut a: Vec<f64>, mut b: Vec<f64>) -> Vec<f64> {
 
 fn main() -> Outcome<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [file, numbers @ ..] = arguments.as_slice() else {
+    fly(&arguments, &mut std::io::stdout())
+}
+
+/// The program: flies the superelement of a file, and writes what it keeps as a table.
+pub fn fly(arguments: &[String], out: &mut impl std::io::Write) -> Outcome<()> {
+    let [file, numbers @ ..] = arguments else {
         return Err("usage: own_integrator FILE.supel [SPIN] [STEP] [STEPS]".into());
     };
     let superelement = Superelement::open(file.as_ref())?;
@@ -172,13 +177,17 @@ fn main() -> Outcome<()> {
     let in_millimetres = superelement.metadata().units.as_deref().is_some_and(|units| units.starts_with("mm"));
     let gravity = if in_millimetres { 9810.0 } else { 9.81 };
     let mut flight = Flight::new(&superelement, spin, gravity)?;
-    println!("{:>12} {:>16} {:>16} {:>16} {:>10}", "time", "energy", "momentum x", "about vertical", "iterations");
+    writeln!(
+        out,
+        "{:>12} {:>16} {:>16} {:>16} {:>10}",
+        "time", "energy", "momentum x", "about vertical", "iterations"
+    )?;
     let mut iterations = 0;
     for i in 0..=n_steps {
         if i.is_multiple_of((n_steps / 10).max(1)) {
             let Kept { time, energy, momentum, about_vertical, iterations } =
                 flight.kept(i as f64 * step, iterations)?;
-            println!("{time:12.5e} {energy:16.9e} {:16.9e} {about_vertical:16.9e} {iterations:10}", momentum[0]);
+            writeln!(out, "{time:12.5e} {energy:16.9e} {:16.9e} {about_vertical:16.9e} {iterations:10}", momentum[0])?;
         }
         iterations = flight.step(step)?;
     }

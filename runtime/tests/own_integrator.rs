@@ -5,9 +5,6 @@ use supel_models::superelements::beam;
 #[allow(dead_code, missing_docs, unreachable_pub)]
 mod example;
 
-use std::path::Path;
-use std::process::Command;
-
 use example::{Flight, Kept};
 use supel_runtime::Superelement;
 
@@ -78,15 +75,10 @@ fn program_flies_a_superelement_from_a_file() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("arc.supel");
     arc().write(&file).expect("the file can be written");
-    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
-    let run = |arguments: &[&str]| {
-        let mut command = Command::new(env!("CARGO"));
-        command.args(["run", "--offline", "--quiet", "--example", "own_integrator", "--manifest-path"]);
-        command.arg(&manifest).arg("--").args(arguments).output().expect("cargo runs")
-    };
-    let flown = run(&[file.to_str().expect("a path"), "1", "2e-3", "20"]);
-    assert!(flown.status.success(), "{}", String::from_utf8_lossy(&flown.stderr));
-    let text = String::from_utf8(flown.stdout).expect("text");
+    let mut out = Vec::new();
+    let arguments = [file.to_str().expect("a path"), "1", "2e-3", "20"].map(str::to_owned);
+    example::fly(&arguments, &mut out).expect("a flight");
+    let text = String::from_utf8(out).expect("text");
     let energies: Vec<f64> = text
         .lines()
         .skip(1)
@@ -94,5 +86,5 @@ fn program_flies_a_superelement_from_a_file() {
         .collect();
     assert_eq!(energies.len(), 11);
     assert!(energies.iter().all(|energy| (energy / energies[0] - 1.0).abs() < 1e-4), "{energies:?}");
-    assert!(!run(&[]).status.success());
+    assert!(example::fly(&[], &mut Vec::new()).is_err());
 }
