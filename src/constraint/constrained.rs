@@ -40,10 +40,10 @@ pub fn constrained<'a>(
         let (rank, loose) = (InterfaceRank { singular_ratio: 1.0 }, LooseMotions::default());
         return Ok(Constrained { modes: None, rigid, rank, loose, n_factorisations });
     };
-    let rank = confirmed_rank(partition, &rigid, rank, factor)?;
+    let (rank, n_factorisations) = confirmed_rank(partition, &rigid, rank, factor)?;
     let modes = constraint_modes_in(form, partition, factor, &rigid);
     factor.refinement()?;
     let (rigid, loose) = with_mechanisms(partition, &modes, rigid)?;
     let rigid = with_passing(rigid, partition)?;
-    Ok(Constrained { modes: Some(modes), rigid, rank, loose, n_factorisations: 0 })
+    Ok(Constrained { modes: Some(modes), rigid, rank, loose, n_factorisations })
 }

@@ -14,6 +14,7 @@
 
 mod analysis;
 mod cholesky;
+mod diagonal;
 mod elimination;
 mod entry;
 mod exact_residual;

@@ -13,6 +13,7 @@
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
+use super::diagonal::Diagonal;
 use super::elimination::{Inverse, Kind, PANEL};
 use super::entry::Entry;
 use super::multifrontal::Eliminated;
@@ -88,51 +89,6 @@ impl<'a, T: Entry> Block<'a, T> {
         match self.kind {
             Kind::Definite => Diagonal::OfTriangle,
             Kind::Indefinite => Diagonal::Ones { order: self.numbers.order },
-        }
-    }
-}
-
-/// The diagonal of the triangle.
-#[derive(Clone, Copy)]
-enum Diagonal<'a> {
-    /// As it is stored.
-    OfTriangle,
-    /// Ones; the columns of each panel in an order of their own.
-    Ones { order: &'a [u32] },
-}
-
-impl Diagonal<'_> {
-    /// The reciprocal of one of its entries, which is stored as `entry`.
-    #[inline(always)]
-    fn inverse<T: Entry>(self, entry: T) -> f64 {
-        match self {
-            Self::OfTriangle => 1.0 / entry.into(),
-            Self::Ones { .. } => 1.0,
-        }
-    }
-
-    /// Puts the rows of the panel that begins at `start` in the order of its pivots.
-    fn permute<const W: usize>(self, start: usize, top: &mut [Row<W>]) {
-        self.exchange(start, top, |rows, before, place, column| rows[place] = before[column]);
-    }
-
-    /// Undoes [`Diagonal::permute`].
-    fn restore<const W: usize>(self, start: usize, top: &mut [Row<W>]) {
-        self.exchange(start, top, |rows, before, place, column| rows[column] = before[place]);
-    }
-
-    fn exchange<const W: usize>(
-        self,
-        start: usize,
-        top: &mut [Row<W>],
-        exchange: impl Fn(&mut [Row<W>], &[Row<W>], usize, usize),
-    ) {
-        let Self::Ones { order } = self else { return };
-        let end = top.len().min(start + PANEL);
-        let rows = &mut top[start..end];
-        let before = rows.to_vec();
-        for (place, column) in order[start..end].iter().enumerate() {
-            exchange(rows, &before, place, *column as usize);
         }
     }
 }

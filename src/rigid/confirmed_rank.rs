@@ -16,7 +16,8 @@ const DOUBTFUL_PIVOT: f64 = 1e-8;
 
 /// Looks again at an interface that reacts a motion by no more than the digits of K turn the motions themselves, and where little of the
 /// stiffness of a dof is left when K_II is eliminated: K_II is singular but for rounding where its lowest eigenvalue is rounding. Then
-/// a rigid-body motion leaves the interface at rest, or a mechanism does, which the matrices tell.
+/// a rigid-body motion leaves the interface at rest, or a mechanism does, which the matrices tell. The rank, and how many factorisations
+/// that took.
 ///
 /// # Errors
 /// A motion without energy leaves the interface at rest as far as the digits tell; the eigensolver fails.
@@ -25,10 +26,10 @@ pub fn confirmed_rank(
     rigid: &RigidBodyModes,
     rank: InterfaceRank,
     factor: &Cholesky<'_>,
-) -> Result<InterfaceRank> {
+) -> Result<(InterfaceRank, usize)> {
     let is_reacted = rank.singular_ratio > rigid.energy.angle && factor.smallest_pivot_ratio > DOUBTFUL_PIVOT;
     if is_reacted || partition.n_internal == 0 {
-        return Ok(rank);
+        return Ok((rank, 0));
     }
     let request = ModeRequest { wanted: Wanted::Count(1), eigensolver: Eigensolver::Lanczos, seed: SEED };
     let lowest = elastic_modes(partition.held_problem(), &Factored::new(factor, 0.0), request)?;
@@ -36,10 +37,14 @@ pub fn confirmed_rank(
         Some(error) if error.data_bar >= 1.0 => {
             let rank = rank_within(partition, rigid, rigid.energy.angle)?;
             match counted_by_matrices(partition, rigid.clone()) {
-                Ok((every, _)) => rank_within(partition, &every, rigid.energy.angle.max(RANK_TOLERANCE)).map(|_| rank),
-                Err(_) => Ok(rank),
+                Ok((every, n_factorisations)) => {
+                    rank_within(partition, &every, rigid.energy.angle.max(RANK_TOLERANCE))?;
+                    Ok((rank, n_factorisations))
+                }
+                // What cannot be counted is no lack of this interface.
+                Err(_) => Ok((rank, 0)),
             }
         }
-        _ => Ok(rank),
+        _ => Ok((rank, 0)),
     }
 }
