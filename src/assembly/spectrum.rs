@@ -120,16 +120,13 @@ impl Pencil {
     fn quotients(&self, mut x: Mat<f64>, momenta: &Mat<f64>) -> Spectrum {
         let quadratic =
             |a: &Mat<f64>, x: &Mat<f64>| dense::dots(x.as_ref(), dense::product(a.as_ref(), x.as_ref()).as_ref());
-        // Of a column of rigid-body motion alone rounding is left.
-        let rounding = NOISE_FACTOR * x.nrows() as f64 * f64::EPSILON;
-        let least: Vec<f64> = quadratic(&self.mass, &x).into_iter().map(|mass| rounding * mass).collect();
         let along = dense::gram(momenta.as_ref(), x.as_ref());
         dense::add_product(x.as_mut(), -1.0, self.rigid.as_ref(), along.as_ref());
         let (energies, masses) = (quadratic(&self.stiffness, &x), quadratic(&self.mass, &x));
         let (of_entries, doubts) =
             (quadratic(&self.rounding, &dense::absolute(x.as_ref())), quadratic(&self.doubt, &x));
         let noise: Vec<f64> = of_entries.iter().zip(doubts).map(|(noise, doubt)| noise + doubt.max(0.0)).collect();
-        let mut order: Vec<usize> = (0..x.ncols()).filter(|j| masses[*j] > least[*j].max(0.0)).collect();
+        let mut order: Vec<usize> = (0..x.ncols()).filter(|j| masses[*j] > 0.0).collect();
         order.sort_by(|a, b| (energies[*a] / masses[*a]).total_cmp(&(energies[*b] / masses[*b])));
         Spectrum {
             lambda: order.iter().map(|j| energies[*j] / masses[*j]).collect(),

@@ -299,7 +299,10 @@ fn flat_faces_and_wide_bands_lie_on_nothing_round() {
     bar.add_group("EDGES", |x| [0.0, 0.1].contains(&x[1]) && [0.0, 0.1].contains(&x[2]));
     let mut plate = brick([20, 20, 1], [1.0, 1.0, 0.1], &Material::STEEL_SI);
     plate.add_group("BAND", |x| ((x[0] - 0.5).hypot(x[1] - 0.5) - 0.5).abs() < 0.02);
-    for model in [block, bar, plate] {
+    // So coarse that straight edges would be as far inside of that sphere.
+    let mut coarse = brick([2, 1, 6], [0.08, 0.05, 0.4], &Material::STEEL_SI);
+    coarse.add_group("ENDS", |x| x[2] == 0.0 || x[2] == 0.4);
+    for model in [block, coarse, bar, plate] {
         let place = Place::with(&model);
         place.write("mesh.inp", deck(&model).as_bytes());
         let (job, text) = proposed(&place, "K.mtx M.mtx --dofs dofs.txt --nodes mesh.inp");

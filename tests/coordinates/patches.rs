@@ -113,6 +113,23 @@ fn springs_around_a_patch_are_told() {
     assert!(!is_untested(&model, "rigid"));
 }
 
+/// A pin that carries its force into all nodes around the middle of a block: turns about it pass, which confirm where its nodes are, but move
+/// nothing in the middle, whose axes they do not tell.
+#[test]
+fn a_pin_inside_a_block_hides_the_axes_of_its_middle() {
+    let mut model = lumped(&brick([4, 2, 2], [0.4, 0.22, 0.24], &Material::STEEL_SI));
+    let around = within(&model, |[x, _, _]| (x - 0.2).abs() < 0.15);
+    let stiffness = 1e9 / (around.len() * around.len()) as f64;
+    for (a, b) in around.iter().flat_map(|a| around.iter().map(move |b| (*a as u32 - 1, *b as u32 - 1))) {
+        model.stiffness.extend((0..3).map(|axis| (3 * a + axis, 3 * b + axis, stiffness)));
+    }
+    for coupling in ["rigid", "average"] {
+        let (place, ended) = by_job(&model, "", &format!("nodes = [23, 1, 5, 15]\ncoupling = \"{coupling}\""));
+        assert_eq!(ended.code, ExitCode::Done, "{coupling}: {}{}", ended.out, ended.err);
+        assert!(warnings(&place).contains(&UNTESTED.to_owned()), "{coupling}: {}", ended.out);
+    }
+}
+
 #[test]
 fn nodes_in_a_plane_of_symmetry_are_told_or_refused() {
     let bar = bar();

@@ -1,6 +1,8 @@
 //! The axes of interface nodes: a label in the file, on which no matrix depends.
 
 use supel::cli::ExitCode;
+use supel_models::Material;
+use supel_models::frame::{Inertia, Section, frame};
 use supel_runtime::Superelement;
 
 use crate::place::{Ended, Place, supel};
@@ -79,6 +81,33 @@ fn axes_of_a_hole() {
     assert!(alone.out.contains("interface_frames"), "{}", alone.out);
     let compared = supel(&["verify", &place.text("x.supel"), "--job", &place.text("job.toml")]);
     assert_eq!(compared.code, ExitCode::CheckFailed, "{}", compared.out);
+}
+
+/// Two rings around an axis that rounding takes off y: which of x and z it leaves most of is no reason to turn the axes over.
+#[test]
+fn rounding_turns_no_axes_over() {
+    let around = |k: usize| std::f64::consts::TAU / 8.0 * (k % 8) as f64;
+    let edges: Vec<[usize; 2]> =
+        (0..16).map(|k| [k, 8 * (k / 8) + (k + 1) % 8]).chain((0..8).map(|k| [k, k + 8])).collect();
+    for [about_z, about_x] in [[1e-6, 0.0], [-1e-6, 1e-9], [0.0, 1e-6], [1e-9, -1e-6]] {
+        let at = |k: usize| {
+            let (y, (z, x)) = (0.1 * (k / 8) as f64, around(k).sin_cos());
+            [0.05 * x + about_z * y, y, 0.05 * z + about_x * y]
+        };
+        let nodes: Vec<[f64; 3]> = (0..16).map(at).collect();
+        let model = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+        let place = Place::with(&model);
+        let job = "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n\
+             [[interface]]\nname = \"bore\"\nnodes = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]\ncoupling = \"average\"\norigin = \"hole\"\n\
+             axes = \"hole\"\n[reduction]\nmethod = \"herting\"\nmodes = { count = 4 }\n[write]\nsuperelement = \"x.supel\"\n";
+        place.write("job.toml", job.as_bytes());
+        supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+        let [x, y, z] = place.superelement("x.supel").tensors().interface_frames[0];
+        // The columns are x, −z and y of the model, but for the angles.
+        for (row, expected) in [(x, [1.0, 0.0, 0.0]), (y, [0.0, 0.0, 1.0]), (z, [0.0, -1.0, 0.0])] {
+            (0..3).for_each(|j| assert!((row[j] - expected[j]).abs() < 1e-5, "{about_z} {about_x}: {row:?}"));
+        }
+    }
 }
 
 #[test]

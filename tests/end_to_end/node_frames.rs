@@ -287,6 +287,25 @@ fn axes_of_few_decimals_are_refused_by_table_and_node() {
     }
 }
 
+/// Where K couples a row of a node with its own axis alone, as in the middle of a block of cubes, a tilt that the decimals do not show makes no
+/// force but by shortening that axis.
+#[test]
+fn axes_that_tilt_by_less_than_their_decimals_are_refused() {
+    let block = brick([2, 2, 2], [0.2; 3], &Material::STEEL_SI);
+    for (decimals, tilt) in [(1, 0.04), (2, 0.004), (2, 0.008), (3, 0.0004), (3, 0.0008)] {
+        let ((s, c), (about_x, upright)) = (0.3f64.sin_cos(), f64::sin_cos(tilt));
+        let axes: Axes = [[c, s, 0.0], [-upright * s, upright * c, about_x], [about_x * s, -about_x * c, upright]];
+        let place = Place::with(&in_local_frames(&block, &axes, |node| node == 14));
+        let row: Vec<String> = axes[..2].iter().flatten().map(|value| format!("{value:.decimals$}")).collect();
+        place.write("frames.csv", format!("node,x1,x2,x3,y1,y2,y3\n14,{}\n", row.join(",")).as_bytes());
+        let mut flags = place.model_flags();
+        flags.extend(["--frames".to_owned(), place.text("frames.csv")]);
+        let ended = place.reduce(&flags, "--interface foot=1,3,7 --method craig-bampton --modes 3");
+        let ended = ended.expect(ExitCode::InputData);
+        assert!(ended.err.contains("E-FRAME-DIGITS"), "{decimals} decimals, {tilt}: {}", ended.err);
+    }
+}
+
 /// Axes of five decimals and more are right but for their digits: these turn the mass of a node as well, which is none of another order.
 #[test]
 fn axes_of_enough_decimals_turn_no_mass() {

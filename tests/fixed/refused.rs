@@ -1,6 +1,7 @@
 //! Supports that a component cannot have.
 
 use supel::cli::ExitCode;
+use supel_models::random::SplitMix64;
 use supel_models::{Inertia, Material, Section, frame};
 use supel_testing::place::{Place, steel_brick, supel};
 
@@ -55,6 +56,35 @@ fn interface_on_the_axis_that_supports_leave() {
         let case = Case { name: "axis", model: model.clone(), interface, fixed, has_nodes: true };
         for method in ["herting", "craig-bampton"] {
             let (_, ended) = case.run(method, 3);
+            let words = ["E-INTERFACE-RANK", "only 0 of the 1 rigid-body motion", "rotation about the axis"];
+            assert_says(&(ended.code, ended.err), ExitCode::ModelPhysics, &words);
+        }
+    }
+}
+
+/// A line along no axis: what the interface moves there by the rotation that supports leave is rounding, and no share of itself makes it more.
+#[test]
+fn interface_on_a_line_that_supports_leave() {
+    let mut random = SplitMix64::new(5);
+    for _ in 0..8 {
+        let [origin, along] = [0.3, 1.0].map(|size| [0; 3].map(|_| size * random.normal()));
+        let at = |t: f64| [0, 1, 2].map(|axis| origin[axis] + t * along[axis]);
+        let [middle, end] = [0.2 + 1.8 * random.uniform(), 2.0 + 1.8 * random.uniform()];
+        let off = [[1.5, 1.2, 0.1], [0.9, 1.4, 0.6]].map(|by| [0, 1, 2].map(|axis| origin[axis] + by[axis]));
+        let model = frame(
+            &[at(0.0), at(middle), at(end), off[0], off[1]],
+            &[[0, 1], [1, 2], [2, 3], [3, 4]],
+            &Section::round(0.05),
+            &Material::STEEL_SI,
+            Inertia::Consistent,
+        );
+        let fixed = r#"{ nodes = [1], dofs = ["ux", "uy", "uz"] }, { nodes = [3], dofs = ["uy", "uz"] }"#;
+        for interface in [
+            r#"{ name = "a", nodes = [2], dofs = ["ux"] }"#,
+            r#"{ name = "a", nodes = [2], dofs = ["ux", "uy", "uz"] }"#,
+        ] {
+            let case = Case { name: "line", model: model.clone(), interface, fixed, has_nodes: true };
+            let (_, ended) = case.run("herting", 3);
             let words = ["E-INTERFACE-RANK", "only 0 of the 1 rigid-body motion", "rotation about the axis"];
             assert_says(&(ended.code, ended.err), ExitCode::ModelPhysics, &words);
         }

@@ -12,7 +12,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import time
@@ -35,8 +34,10 @@ CARGO_TEST = ["cargo", "test", "--workspace", "--locked", "--features", "supel-m
 PATIENCE_SECONDS = 1200
 
 
-def copy_sources():
-    """A copy of all files of the repository, without those it ignores; unchanged ones keep their times, old ones go."""
+def copy_sources(texts=None):
+    """A copy of all files of the repository, without those it ignores and with `texts` in the place of some; unchanged ones keep their
+    times, so that nothing is built again for them, and old ones go."""
+    texts = {name: text.encode() for name, text in (texts or {}).items()}
     listed = subprocess.run(
         ["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True
     )
@@ -45,10 +46,10 @@ def copy_sources():
         if old.relative_to(COPY).as_posix() not in names:
             old.unlink()
     for name in sorted(names):
-        source, target = ROOT / name, COPY / name
+        wanted, target = texts.get(name) or (ROOT / name).read_bytes(), COPY / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        if not target.exists() or target.read_bytes() != source.read_bytes():
-            shutil.copyfile(source, target)
+        if not target.exists() or target.read_bytes() != wanted:
+            target.write_bytes(wanted)
 
 
 def place_of(mutation):
@@ -74,9 +75,7 @@ def write_switched(numbered):
         fitting |= numbers
     for name in {crate_root(numbered[number]) for number in fitting}:
         texts[name] = texts.get(name, (ROOT / name).read_text()) + switched.CHOICE
-    copy_sources()
-    for name, text in texts.items():
-        (COPY / name).write_text(text)
+    copy_sources(texts)
     return fitting, texts
 
 
@@ -212,7 +211,8 @@ def main():
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         n_noticed = sum(pool.map(branch, sorted(fitting)))
     rest = [mutation for number, mutation in numbered.items() if number not in fitting]
-    copy_sources()
+    if rest:
+        copy_sources()
     if rest and not flags:
         refuse_failing(rest, run_cargo)
     n_noticed += sum(told(mutation, lambda: alone(mutation)) for mutation in rest)

@@ -79,6 +79,29 @@ fn bodies_that_only_the_mass_couples_agree() {
     }
 }
 
+/// Without coordinates the zero modes are looked for as any others, six at first, and what follows them may be one more: that is no frequency to
+/// put a shift next to, which would be factored in vain.
+#[test]
+fn more_free_bodies_than_modes_are_looked_for() {
+    let nodes = [0.0, 1.0, 2.0].map(|t| [0.1 * t, 0.02 * t * t, 0.0]);
+    let section = Section { area: 1e-4, second_moment_y: 1e-9, second_moment_z: 2e-9, torsion: 2e-9 };
+    let [soft, heavy] = [(1.0, 1.0), (1.0, 1e4)].map(|(stiffness, density)| {
+        let material =
+            Material { young: stiffness * Material::STEEL_SI.young, density: density * 7850.0, ..Material::STEEL_SI };
+        frame(&nodes, &[[0, 1], [1, 2]], &section, &material, Inertia::Consistent)
+    });
+    let stiff = Material { young: 1e4 * Material::STEEL_SI.young, density: 1e4 * 7850.0, ..Material::STEEL_SI };
+    let stiff = frame(&nodes, &[[0, 1], [1, 2]], &section, &stiff, Inertia::Consistent);
+    let place = Place::with(&join(&join(&stiff, &soft, &[]), &heavy, &[]));
+    let rows: Vec<String> =
+        [0, 18, 36].into_iter().flat_map(|first| first..first + 6).map(|row| row.to_string()).collect();
+    for method in ["herting", "craig-bampton"] {
+        let rest = format!("--interface a=rows:{} --method {method} --modes 3", rows.join(","));
+        let ended = place.reduce(&place.matrix_flags(), &rest).expect(ExitCode::Done);
+        assert!(ended.out.contains("work              4 factorisations"), "{method}: {}", ended.out);
+    }
+}
+
 /// An L of beams, `n` along and `n` up, with consistent mass.
 fn long_frame(n: usize, radius: f64) -> Model {
     let along = (0..=n).map(|i| [0.1 * i as f64, 0.0, 0.0]);
@@ -107,6 +130,18 @@ fn long_part_on_a_short_interface() {
         let [a, b] = [patch(0), patch(1)];
         let rest = format!("--rigid-interface a={a} --rigid-interface b={b} --method {method} --modes 3");
         let said = agree(&place, &place.model_flags(), &rest);
+        assert!(!said.contains("! warn"), "{method}: {said}");
+    }
+}
+
+/// A bar a thousand times as long as its one interface is wide: M̂ holds its mass on levers of that length, and mass properties and loads of
+/// gravity are what is left of a million times larger terms.
+#[test]
+fn long_bars_on_one_end() {
+    let place = Place::with(&brick([100, 1, 1], [10.0, 0.01, 0.01], &Material::STEEL_SI));
+    for method in ["herting", "craig-bampton"] {
+        let said =
+            agree(&place, &place.model_flags(), &format!("--interface a=1,102,203,304 --method {method} --modes 3"));
         assert!(!said.contains("! warn"), "{method}: {said}");
     }
 }
