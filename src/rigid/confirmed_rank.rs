@@ -4,7 +4,7 @@ use super::of_partition::counted_by_matrices;
 use super::rank::{InterfaceRank, RANK_TOLERANCE, rank_within};
 use super::rigid_body_modes::RigidBodyModes;
 use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
-use crate::error::Result;
+use crate::error::{ErrorClass, Result};
 use crate::factor::Cholesky;
 use crate::job::Eigensolver;
 use crate::partition::Partition;
@@ -41,8 +41,11 @@ pub fn confirmed_rank(
                     rank_within(partition, &every, rigid.energy.angle.max(RANK_TOLERANCE))?;
                     Ok((rank, n_factorisations))
                 }
-                // What cannot be counted is no lack of this interface.
-                Err(_) => Ok((rank, 0)),
+                // What the digits do not let be counted is no lack of this interface.
+                Err(error) if matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit) => {
+                    Ok((rank, 0))
+                }
+                Err(error) => Err(error),
             }
         }
         _ => Ok((rank, 0)),

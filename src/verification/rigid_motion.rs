@@ -6,11 +6,13 @@ use super::force;
 use super::grounding::{Grounding, Restraint};
 use super::limits::{self, Judged, NOT_CARRIED, share_of_data};
 use super::residual::Worst;
-use super::spectrum::{NOT_FREE, Spectrum, zero_level};
+use super::spectrum::{NOT_FREE, Spectrum, zero_level, zero_levels};
+use crate::basis::DynamicCoordinate;
 use crate::constraint::rigid_error;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::Equilibrated;
 use crate::error::Result;
+use crate::reduction::sizes_of_modes;
 use crate::rigid::{FORCE_ASKED, RigidEnergy, scales};
 
 /// M-05, energy. The value is shown and not judged where no elastic mode is known to compare it with.
@@ -128,7 +130,7 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
         }
     }
     let limits = zero_level(evidence);
-    let arithmetic = limits.arithmetic.max(NOISE_FACTOR * of_displacements);
+    let arithmetic = limits.arithmetic.max(NOISE_FACTOR * of_displacements).max(amplitude_rounding(evidence));
     let limits = Limits { engineering: 1e-12, arithmetic, ..limits }.capped(LARGEST_ROUNDING, MAX_EXCUSE);
     Check {
         id: "M-12",
@@ -139,6 +141,17 @@ pub(super) fn null_space(evidence: &Evidence<'_>) -> Check {
         fail_above: limits.value().max(NOT_FREE),
         worst: worst.1,
     }
+}
+
+/// What rounding of its energy makes of the measure of a motion that leaves the interface at rest: its amplitude has no stiffness of its own,
+/// and the size of the softest elastic one.
+fn amplitude_rounding(evidence: &Evidence<'_>) -> f64 {
+    let (n_b, basis) = (evidence.partition.n_interface(), evidence.basis);
+    let is_rigid = |coordinate: &DynamicCoordinate| matches!(coordinate, DynamicCoordinate::RigidBody(_));
+    let Some(slot) = basis.coordinates.iter().position(is_rigid).filter(|_| n_b > 0) else { return 0.0 };
+    let size = sizes_of_modes(evidence.reduction.stiffness.as_ref(), n_b, basis)[slot];
+    let levels = zero_levels(evidence, evidence.reduction.rigid_body_modes.as_ref());
+    levels.into_iter().fold(0.0, f64::max) / size
 }
 
 /// What a rounding ε of the largest displacement, at every interface dof, makes of the measure of one motion: next to nothing where the motion

@@ -171,7 +171,7 @@ fn first_of_full(evidence: &Evidence<'_>, n_soft: usize) -> Option<f64> {
 pub(super) const NOT_FREE: f64 = 1e-8;
 
 /// λ up to which each of some motions of the reduced model costs no energy: by the full model, whose roundings these are.
-fn zero_levels(evidence: &Evidence<'_>, shapes: MatRef<'_, f64>) -> Vec<f64> {
+pub(super) fn zero_levels(evidence: &Evidence<'_>, shapes: MatRef<'_, f64>) -> Vec<f64> {
     let problem = evidence.partition.free_problem();
     let (_, errors, _) = rayleigh_quotients(problem, evidence.basis.expanded(shapes).as_ref());
     errors.iter().map(|error| error.zero_level).collect()

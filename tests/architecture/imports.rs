@@ -36,12 +36,17 @@ pub(crate) struct Import {
     pub(crate) name: String,
 }
 
+/// The texts of all files `*.rs` of a folder by their paths.
+pub(crate) fn texts_of_folder(root: &Path) -> BTreeMap<String, String> {
+    let mut files = BTreeMap::new();
+    collect(root, root, &mut files);
+    files
+}
+
 impl Sources {
     /// Reads all files `*.rs` of a folder.
     pub(crate) fn of_folder(root: &Path) -> Self {
-        let mut files = BTreeMap::new();
-        collect(root, root, &mut files);
-        Self::of_files(&files)
+        Self::of_files(&texts_of_folder(root))
     }
 
     /// Reads files given by their path and text.

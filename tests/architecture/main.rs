@@ -6,7 +6,10 @@ mod imports;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use imports::{Import, Sources, circles};
+use imports::{Import, Sources, circles, texts_of_folder};
+
+/// The folders of sources.
+const MEMBERS: [&str; 5] = ["src", "runtime/src", "models/src", "testing/src", "validation/src"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -67,13 +70,34 @@ fn every_layer_of_the_crate_page_exists() {
 #[test]
 fn no_files_form_a_circle() {
     let mut shown = Vec::new();
-    for member in ["src", "runtime/src", "models/src", "testing/src", "validation/src"] {
+    for member in MEMBERS {
         let sources = Sources::of_folder(&root().join(member));
         assert!(sources.count() > 5, "{} files of {member}", sources.count());
         let found = circles(&sources.imports());
         shown.extend(found.iter().map(|files| format!("{member}: {}", files.join(", "))));
     }
     assert!(shown.is_empty(), "files import each other:\n{}", shown.join("\n"));
+}
+
+/// Four hundred lines without tests are what a reader follows at a time. Tables are longer, and one thing that splitting would tear.
+#[test]
+fn no_file_is_longer_than_a_reader_follows() {
+    const MOST: usize = 400;
+    /// The errors and checks there are, and the steps of one iteration.
+    const LONGER: [&str; 4] =
+        ["src/error.rs", "runtime/src/error.rs", "src/verification/catalogue.rs", "src/eigen/lanczos.rs"];
+    let length = |text: &str| text.lines().take_while(|line| *line != "#[cfg(test)]").count();
+    let files = MEMBERS.into_iter().flat_map(|member| {
+        texts_of_folder(&root().join(member))
+            .into_iter()
+            .map(move |(file, text)| (format!("{member}/{file}"), length(&text)))
+    });
+    let (mut longer, mut exceptions) = (Vec::new(), Vec::new());
+    for (file, length) in files.filter(|(_, length)| *length > MOST) {
+        if LONGER.contains(&file.as_str()) { exceptions.push(file) } else { longer.push(format!("{file}: {length}")) }
+    }
+    assert!(longer.is_empty(), "files of more than {MOST} lines without tests: {longer:?}");
+    assert_eq!(exceptions.len(), LONGER.len(), "of the exceptions these alone are longer: {exceptions:?}");
 }
 
 fn sources(files: &[(&str, &str)]) -> Sources {

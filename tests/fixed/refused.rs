@@ -87,6 +87,13 @@ fn interface_on_a_line_that_supports_leave() {
             let (_, ended) = case.run("herting", 3);
             let words = ["E-INTERFACE-RANK", "only 0 of the 1 rigid-body motion", "rotation about the axis"];
             assert_says(&(ended.code, ended.err), ExitCode::ModelPhysics, &words);
+            // An amplitude of the rotation needs no interface that reacts it, and what rounding leaves of its energy is no force.
+            let (place, ended) = case.run("rubin", 3);
+            assert!(ended.code == ExitCode::Done && !ended.out.contains("! warn"), "{}{}", ended.out, ended.err);
+            for job in [&[][..], &["--job", &place.text("job.toml")]] {
+                let verified = supel(&[&["verify", &place.text("x.supel")], job].concat());
+                assert!(verified.code == ExitCode::Done && !verified.out.contains("! warn"), "{}", verified.out);
+            }
         }
     }
 }
