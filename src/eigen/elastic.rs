@@ -83,6 +83,10 @@ pub fn elastic_modes(problem: ModalProblem<'_>, operator: &dyn ShiftInvert, requ
         let n_settled = n_settled(problem, &found, operator.shift());
         let is_all = n_settled == found.count();
         known = found.truncated(n_settled).joined([known]);
+        // More than there are rows would be the same ones again, of a pencil whose rounding no deflation keeps away.
+        if known.count() + q.ncols() >= n {
+            return Ok(Modes { searched_to: request.wanted.band_end(), ..known });
+        }
         if is_all {
             // The iteration ended the last cluster by its own estimates; where the quotients say that it goes on, so does the search.
             let goes_on = |last: &f64| known.next.is_some_and(|next| are_clustered(*last, next));

@@ -283,6 +283,31 @@ fn schema_and_program_agree_on_every_value() {
     assert!(n_cases > 5000 && n_accepted > 200, "{n_accepted} of {n_cases} are accepted");
 }
 
+/// Statics need no modes, unless nothing is left out.
+#[test]
+fn a_job_of_statics_names_modes_where_nothing_is_skipped() {
+    let schema = schema();
+    for (run, modes, is_right) in [
+        (json!({}), None, true),
+        (json!({ "skip": "nothing" }), None, false),
+        (json!({ "skip": "nothing" }), Some(json!({ "count": 5 })), true),
+    ] {
+        let mut job = json!({
+            "model": { "stiffness": "K.mtx", "mass": "M.mtx", "dofs": "m.dof" },
+            "interface": [{ "name": "hub", "nodes": [7] }],
+            "reduction": { "method": "herting" },
+            "scene": { "analysis": "static" },
+            "run": run,
+            "write": { "superelement": "x.supel" },
+        });
+        if let Some(modes) = modes {
+            job["reduction"]["modes"] = modes;
+        }
+        let found = accepted(&job.to_string(), "job.json");
+        assert_eq!((schema.is_valid(&job), found.is_ok()), (is_right, is_right), "{job}: {found:?}");
+    }
+}
+
 /// The jobs have every key, so that every key was changed.
 #[test]
 fn the_changed_jobs_have_every_key() {
