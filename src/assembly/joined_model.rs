@@ -33,6 +33,8 @@ pub struct JoinedModel {
     pub loads: Mat<f64>,
     /// The name of each, `COMPONENT.LOAD`, and whether its component has a residual vector for it.
     pub load_names: Vec<(String, bool)>,
+    /// Those left out, all of which is on held dofs.
+    pub loads_on_held: Vec<String>,
 }
 
 /// A row of the matrices.
@@ -132,9 +134,9 @@ impl Assembly {
         };
         let interfaces = selections(&sites, &rows, &nodes, &is_left);
         let fixed = selections(&sites, &rows, &nodes, &|_, dof| held.contains(&dof.row));
-        let (loads, load_names) = self.loads(&numbers, rows.len());
+        let (loads, load_names, loads_on_held) = self.loads(&numbers, rows.len(), &held);
         let (stiffness, mass, rigid) = (pencil.stiffness, pencil.mass, pencil.rigid);
-        Ok(JoinedModel { stiffness, mass, rigid, rows, nodes, interfaces, fixed, loads, load_names })
+        Ok(JoinedModel { stiffness, mass, rigid, rows, nodes, interfaces, fixed, loads, load_names, loads_on_held })
     }
 
     fn same_units(&self) -> Result<()> {
@@ -195,25 +197,34 @@ impl Assembly {
         sites
     }
 
-    /// B_cᵀ f of the load vectors of all components, and their names.
-    fn loads(&self, numbers: &[usize], n: usize) -> (Mat<f64>, Vec<(String, bool)>) {
-        let count = |component: &Component| component.superelement.metadata().load_names.len();
-        let mut loads = Mat::zeros(n, self.components.iter().map(count).sum());
-        let mut names = Vec::new();
+    /// B_cᵀ f of the load vectors of all components that load rows which are not held, and their names; and the names of the others.
+    fn loads(
+        &self,
+        numbers: &[usize],
+        n: usize,
+        held: &BTreeSet<usize>,
+    ) -> (Mat<f64>, Vec<(String, bool)>, Vec<String>) {
+        let (mut loads, mut names, mut on_held) = (Vec::new(), Vec::new(), Vec::new());
         let mut first = 0;
         for component in &self.components {
             let metadata = component.superelement.metadata();
             if let Some(vectors) = &component.superelement.tensors().load_vectors {
                 for (column, name) in metadata.load_names.iter().enumerate() {
-                    let to = names.len();
-                    (0..vectors.rows()).for_each(|i| loads[(numbers[first + i], to)] += vectors[(i, column)]);
+                    let mut load = vec![0.0; n];
+                    (0..vectors.rows()).for_each(|i| load[numbers[first + i]] += vectors[(i, column)]);
+                    let name = format!("{}.{name}", component.name);
+                    if (0..n).all(|row| load[row] == 0.0 || held.contains(&row)) {
+                        on_held.push(name);
+                        continue;
+                    }
+                    loads.push(load);
                     let is_its_own = |coordinate: &Coordinate| matches!(coordinate, Coordinate::ResidualVector { load } if *load == column);
-                    names.push((format!("{}.{name}", component.name), metadata.named_columns().any(is_its_own)));
+                    names.push((name, metadata.named_columns().any(is_its_own)));
                 }
             }
             first += component.n_coordinates();
         }
-        (loads, names)
+        (Mat::from_fn(n, loads.len(), |i, j| loads[j][i]), names, on_held)
     }
 }
 

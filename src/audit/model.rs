@@ -248,7 +248,7 @@ impl<'a> Reference<'a> {
             Some(kept) => {
                 let is_modal = file.n_b == 0 && self.motions.n_zero > 0;
                 let relief =
-                    (!self.motions.is_relief_of_given() && file.n_b > 0).then(|| self.motions.combination(file).0);
+                    (!self.motions.is_relief_of_given() && file.n_b > 0).then(|| self.motions.combination(file));
                 let mixing = file.mixing.as_ref().filter(|_| !is_modal).map(Mat::as_ref);
                 let freedom = Freedom { kept: &kept, groups: &self.asked.groups, relief, mixing };
                 combination(file, projected, &freedom).unwrap_or_else(|| {

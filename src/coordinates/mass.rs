@@ -44,9 +44,15 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes) -> Option<Findi
         let rounding = (DIFFERENT.max(of_axes) * size).max(DIGITS * digits);
         (0..9).any(|k| (momenta[(rows[k / 3], k % 3)] - expected(k)).abs() > rounding)
     };
+    // So is that which condensation leaves, which rows without a place show that are amplitudes of modes.
+    let couples_amplitudes = |row: &usize| {
+        let entries = motions.model.mass.outer_view(*row);
+        entries.iter().flat_map(|view| view.iter()).any(|(col, value)| *value != 0.0 && !nodes.is_placed(col))
+    };
     // The consistent mass of a beam or shell is another along it than across, and its part at a removed node is missing.
-    let is_whole =
-        |node: usize, rows: &[usize; 3]| !turns[node] && !nodes.is_near_lack(node) && !rows.contains(&usize::MAX);
+    let is_whole = |node: usize, rows: &[usize; 3]| {
+        !turns[node] && !nodes.is_near_lack(node) && !rows.contains(&usize::MAX) && !rows.iter().any(couples_amplitudes)
+    };
     let whole = rows_of.iter().enumerate().filter(|(node, rows)| is_whole(*node, rows));
     let turned: Vec<usize> = whole.filter(|(_, rows)| is_turned(rows)).map(|(_, rows)| rows[0]).collect();
     let label = |row: &usize| {

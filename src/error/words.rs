@@ -29,10 +29,10 @@ pub(super) const SOFTER_THAN_DIGITS: &str = "; what is softer than the rounding 
 
 /// What to do where a rigid-body motion about a known axis leaves the interface at rest.
 pub(super) const OFF_THE_AXIS: &str = "add interface nodes off that axis, give the nodes rotations, or reduce by the method \
-    rubin, which with a mass needs no interface that holds the component";
+    rubin, which with a mass needs no interface that holds the component, though one that holds its mechanisms";
 /// What to do where it is a motion of rows.
 pub(super) const ROWS_THAT_MOVE: &str = "add rows to the interface that these motions move, or reduce by the method rubin, which \
-    with a mass needs no interface that holds the component; nodes in the job would name the motions";
+    with a mass needs no interface that holds the component, though one that holds its mechanisms; nodes in the job would name the motions";
 /// What to do where a node lacks a direction of a mass.
 pub(super) const SIX_DOFS: &str = "put the mass on a node with six dofs, as rigid interfaces have";
 

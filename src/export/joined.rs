@@ -141,6 +141,8 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
     }
     let mut remarks = remarks(assembly, &band);
     remarks.extend(without_nodes.map(str::to_owned));
+    let on_held = model.loads_on_held.iter();
+    remarks.extend(on_held.map(|name| format!("The load {name} is left out: all of it is on held dofs.")));
     let selection = |own: &JoinedSelection| match without_nodes {
         Some(_) => selection_of_rows(own, model),
         None => selection(own),

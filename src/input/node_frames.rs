@@ -160,10 +160,14 @@ impl TableDigits {
     }
 }
 
-/// The most decimals that a component of a direction has.
+/// The most decimals that a component of a direction has. Where small ones have more than their own digits are, as a format of significant
+/// digits writes them, the largest ones are known to fewer: to those that they have.
 fn decimals(direction: [f64; 3]) -> i32 {
-    let of = direction.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value).n_decimals());
-    of.max().unwrap_or(0)
+    let of = || direction.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value));
+    let (most, digits) =
+        of().fold((0, 0), |(most, digits), of| (of.n_decimals().max(most), (of.n_digits as i32).max(digits)));
+    let is_of_digits = of().any(|of| of.exponent == -1 && of.n_decimals() == digits);
+    if most > digits && is_of_digits { digits } else { most }
 }
 
 /// The decimals that a direction of about unit length looks rounded to, none for other directions, which are as they are meant. Of a length
@@ -186,6 +190,9 @@ mod tests {
             ([0.71, 0.71, 0.0], Some(2)),
             ([0.9, 0.5, 0.0], Some(1)),
             ([0.6, 0.8, 0.0], Some(1)),
+            ([0.99999, 0.0041235, 0.0], Some(5)),
+            ([0.71, 0.70, 0.0071], Some(2)),
+            ([0.6, 0.799999, 0.000123], Some(6)),
             ([1.0, 1.0, 0.0], None),
             ([0.0, 0.0, 2.5], None),
             ([0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0], None),

@@ -11,8 +11,10 @@ use faer::{Mat, MatRef, Side};
 
 use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::{Evidence, data_noise};
+use super::limits::share_of_data;
 use super::loads::root_of_energy;
 use super::residual::{Residuals, Rows, Worst};
+use super::spectrum::Spectrum;
 use crate::basis::ANSWERED;
 use crate::constraint::Attachment;
 use crate::dense::{self, NOISE_FACTOR};
@@ -106,8 +108,9 @@ fn balanced_units(evidence: &Evidence<'_>, columns: std::ops::Range<usize>) -> (
     (loads, sizes)
 }
 
-/// M-17: the flexibility of the interface by the reduced matrices is that of the full ones.
-pub(super) fn flexibility(evidence: &Evidence<'_>) -> Option<Check> {
+/// M-17: the flexibility of the interface by the reduced matrices is that of the full ones. Digits that leave an energy of rigid-body motion,
+/// relative to the first elastic one, leave as much of it open.
+pub(super) fn flexibility(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Option<Check> {
     const FAIL: f64 = 1e-6;
     let attachment = evidence.constraint.attachment.as_ref()?;
     let (n_i, n_b) = (evidence.partition.n_internal, evidence.partition.n_interface());
@@ -123,7 +126,9 @@ pub(super) fn flexibility(evidence: &Evidence<'_>) -> Option<Check> {
         }
     }
     let name = |dof: usize| evidence.partition.name_of(n_i + dof);
-    let limits = Limits { engineering: 1e-10, ..rounding(evidence, attachment) }.capped(FAIL, MAX_EXCUSE);
+    let own = rounding(evidence, attachment);
+    let data = own.data.max(spectrum.noise * share_of_data(evidence.partition));
+    let limits = Limits { engineering: 1e-10, data, ..own }.capped(FAIL, MAX_EXCUSE);
     Some(Check {
         id: "M-17",
         name: "flexibility of the interface is preserved",

@@ -85,7 +85,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.extend(mass::of_parts(evidence.partition));
     checks.extend(rigid_body.routes.as_ref().map(|routes| rigid_body::routes_agree(evidence, &spectrum, routes)));
     checks.extend(mass::expected(evidence));
-    checks.extend(attached::flexibility(evidence));
+    checks.extend(attached::flexibility(evidence, &spectrum));
     checks.extend(loads::accelerations(evidence, condition));
     checks.extend(rigid_body.effective_mass.as_ref().and_then(loads::effective_mass));
     checks.extend(attachment::checks(evidence)?);

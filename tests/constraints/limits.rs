@@ -5,8 +5,10 @@ use std::f64::consts::TAU;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use supel::cli::ExitCode;
-use supel_models::Model;
-use supel_testing::place::{Place, assert_close, frequencies_hz};
+use supel_models::random::SplitMix64;
+use supel_models::transform::join;
+use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_testing::place::{Place, assert_close, frequencies_hz, supel};
 
 use crate::model::{labels_at, tied_halves};
 use crate::{Case, Rows, eigenvalues};
@@ -158,6 +160,42 @@ fn scales_of_constraints_do_not_matter() {
         for (i, j) in (0..n_b).flat_map(|i| (0..n_b).map(move |j| (i, j))) {
             let size = (own[(i, i)] * own[(j, j)]).sqrt();
             assert!((k[(i, j)] - own[(i, j)]).abs() <= 1e-11 * size, "{factor:e}: {i}, {j}");
+        }
+    }
+}
+
+/// A clamped arm with another one hinged to its tip: the inertia relief of the mechanism answers with the soft arm, next to which its answers in
+/// the other one are small, and what deforms in its motions by rounding answers likewise.
+#[test]
+fn the_inertia_relief_of_arms_on_a_hinge_agrees() {
+    let mut random = SplitMix64::new(7);
+    for round in 0..10 {
+        let mut arm = |n: usize, from: [f64; 3], side: f64| {
+            let mut at = from;
+            let step = |at: [f64; 3], by: [f64; 3]| [at[0] + 0.1 + by[0], at[1] + side * by[1], at[2] + by[2]];
+            let mut nodes = vec![at];
+            for _ in 1..n {
+                at = step(at, [0; 3].map(|_| 0.1 * random.normal()));
+                nodes.push(at);
+            }
+            nodes
+        };
+        let first = arm(6, [0.0; 3], 1.0);
+        let second = arm(7, first[5], -1.0);
+        let section = Section { area: 3e-4, second_moment_y: 2e-8, second_moment_z: 5e-8, torsion: 6e-8 };
+        let beams = |nodes: &[[f64; 3]]| {
+            let edges: Vec<[usize; 2]> = (1..nodes.len()).map(|i| [i - 1, i]).collect();
+            frame(nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent)
+        };
+        let hinge = (0..3).map(|axis| vec![(30 + axis, 1.0), (36 + axis, -1.0)]).collect();
+        let case = Case::new(join(&beams(&first), &beams(&second), &[]), hinge);
+        for method in ["herting", "rubin"] {
+            let ends = r#"{ name = "a", nodes = [9, 10] }, { name = "b", nodes = [13, 6] }"#;
+            let reduction = format!("method = \"{method}\", modes = {{ count = 3 }}");
+            case.run(r#", mechanisms = "accept""#, ends, &reduction, "fixed = [{ nodes = [1] }]")
+                .expect(ExitCode::Done);
+            let verified = supel(&["verify", &case.place.text("x.supel"), "--job", &case.place.text("job.toml")]);
+            assert_eq!(verified.code, ExitCode::Done, "{round}, {method}: {}", verified.out);
         }
     }
 }

@@ -287,6 +287,19 @@ fn axes_of_few_decimals_are_refused_by_table_and_node() {
     }
 }
 
+/// Five significant digits are five decimals of what is large, however many small components have.
+#[test]
+fn axes_of_five_significant_digits_are_known_to_five_decimals() {
+    for nodes in
+        [vec![(15, turned_by(0.7))], vec![(15, turned_by(3.0)), (20, turned_by(0.1))], vec![(23, turned_by(6.2))]]
+    {
+        let form = |value: f64| format!("{value:.4e}").parse::<f64>().expect("a number").to_string();
+        let (place, flags) = each_in_its_own(&nodes, form);
+        let ended = place.reduce(&flags, FREE).expect(ExitCode::Done);
+        assert!(ended.out.contains("W-FRAME-DIGITS") && ended.out.contains("to 5 decimals"), "{}", ended.out);
+    }
+}
+
 /// Where K couples a row of a node with its own axis alone, as in the middle of a block of cubes, a tilt that the decimals do not show makes no
 /// force but by shortening that axis.
 #[test]

@@ -223,6 +223,43 @@ force = [0, 1, 0]
     assert!(found.metadata().coordinates.iter().any(is_residual));
 }
 
+/// A load on nothing but what is held loads the model no longer.
+#[test]
+fn loads_on_what_is_held_are_left_out() {
+    let place = Place::with_brick();
+    let load = |name: &str, node: usize| format!("[[load]]\nname = \"{name}\"\nnodes = [{node}]\nforce = [0, 1, 0]\n");
+    let job = format!(
+        "[model]\nstiffness = \"K.mtx\"\nmass = \"M.mtx\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n\
+         [[interface]]\nname = \"foot\"\nnodes = [1, 11, 31]\n[[interface]]\nname = \"tip\"\nnodes = [5, 15]\n{}{}\
+         [reduction]\nmethod = \"craig-bampton\"\nmodes = {{ count = 3 }}\n[write]\nsuperelement = \"x.supel\"\n",
+        load("held", 11),
+        load("free", 15)
+    );
+    place.write("job.toml", job.as_bytes());
+    supel(&["reduce", &place.text("job.toml")]).expect(ExitCode::Done);
+    export(&place, "matrix-market", &["--fix", "foot", "--output", &place.text("w")]).expect(ExitCode::Done);
+    let text = String::from_utf8(place.bytes("w.job.toml")).expect("UTF-8");
+    assert!(text.contains("The load x.held is left out: all of it is on held dofs."), "{text}");
+    supel(&["reduce", &place.text("w.job.toml")]).expect(ExitCode::Done);
+    assert_eq!(place.superelement("w.again.supel").metadata().load_names, ["x.free"]);
+}
+
+/// What condensation leaves of the mass is another one in each direction, and no wrong order of its rows.
+#[test]
+fn the_mass_of_a_reduced_model_is_no_wrong_one() {
+    for method in ["craig-bampton", "herting"] {
+        let place = Place::with_brick();
+        let rest = format!("--interface foot=1,11,31,41 --interface tip=5,15,35,45 --method {method} --modes 8");
+        place.reduce(&place.model_flags(), &rest).expect(ExitCode::Done);
+        let again = ["reduce", &place.text("x.supel"), "--modes", "3", "--output", &place.text("y.supel")];
+        let ended = supel(&again).expect(ExitCode::Done);
+        assert!(!ended.out.contains("W-MASS-DIRECTION"), "{method}: {}", ended.out);
+        export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+        let ended = supel(&["reduce", &place.text("x.job.toml")]).expect(ExitCode::Done);
+        assert!(!ended.out.contains("W-MASS-DIRECTION"), "{method}: {}", ended.out);
+    }
+}
+
 /// An interface that just holds its component has no stiffness but rounding, which is left out: by modes it is a model, and without them
 /// there is nothing to reduce.
 #[test]

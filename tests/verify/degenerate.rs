@@ -6,7 +6,7 @@ use supel_models::frame::{Inertia, Section, frame};
 use supel_models::model::{Assembler, dot, multiply};
 use supel_models::random::SplitMix64;
 use supel_models::springs::springs;
-use supel_models::transform::{join, translated};
+use supel_models::transform::{in_local_frames, join, rounded, translated};
 use supel_models::{Material, Model, brick};
 
 use crate::place::{Place, assert_close, frequencies_hz, supel};
@@ -483,6 +483,27 @@ fn rubin_where_the_interface_leaves_a_translation_alone_agrees() {
     for (nodes, dofs) in [("[1]", "[\"ux\", \"uy\"]"), ("[1]", "[\"uy\"]"), ("[1, 5, 9]", "[\"uy\"]")] {
         let interface = format!("interface = [{{ name = \"i\", nodes = {nodes}, dofs = {dofs} }}]");
         agree_by_job(&model, &format!("{interface}\nreduction = {{ method = \"rubin\", modes = {{ count = 4 }} }}"));
+    }
+}
+
+/// Few digits leave forces of rigid-body motion that no solve takes out, and next to a heavy mass as much of the flexibility open as they leave
+/// of its energy.
+#[test]
+fn rubin_by_few_digits_agrees() {
+    let block = brick([4, 1, 1], [1.0, 0.2, 0.15], &Material::STEEL_SI);
+    let cases = (0..24)
+        .map(|k| (0.3 + 0.37 * f64::from(k), [7, 6, 7, 8][k as usize % 4], [4000.0, 0.0, 400.0][k as usize % 3]));
+    for (angle, digits, heavy) in cases {
+        let (s, c) = f64::sin_cos(angle);
+        // About z, and then by a third of a turn about the diagonal.
+        let axes = [[0.0, 0.0, 1.0], [c, s, 0.0], [-s, c, 0.0]];
+        let turned = in_local_frames(&block, &axes, |_| true);
+        let nodes = block.nodes.iter().map(|x| axes.map(|axis| dot(&axis, x))).collect();
+        let model = rounded(&Model { nodes, ..turned }, digits);
+        let added = if heavy > 0.0 { format!("added_mass = [{{ node = 14, mass = {heavy} }}]") } else { String::new() };
+        let job =
+            "interface = [{ name = \"i\", nodes = [20] }]\nreduction = { method = \"rubin\", modes = { count = 4 } }";
+        agree_by_job(&model, &format!("{added}\n{job}"));
     }
 }
 

@@ -14,7 +14,7 @@ use std::ops::Range;
 use faer::{Mat, MatRef};
 
 use super::columns::Named;
-use super::projection::Projected;
+use super::projection::{Form, Projected};
 use super::scaled::Scaled;
 use crate::audit::named_modes::{WithInverse, terms_of_unmixing};
 use crate::dense::{self, NOISE_FACTOR};
@@ -30,8 +30,9 @@ pub(super) struct Freedom<'a> {
     pub(super) kept: &'a [usize],
     /// Ranges of modes that are one space.
     pub(super) groups: &'a [Range<usize>],
-    /// Motions of the file's inertia relief from those made again, n_r × n_r; none where both are the same.
-    pub(super) relief: Option<Mat<f64>>,
+    /// Motions of the file's inertia relief from those made again, n_r × n_r, and the share of them that is none of these; none where both
+    /// are the same.
+    pub(super) relief: Option<(Mat<f64>, f64)>,
     /// C; none where the stored columns are the named ones, or orthonormal ones of the same span.
     pub(super) mixing: Option<MatRef<'a, f64>>,
 }
@@ -69,7 +70,10 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
                 let n = columns.len();
                 // The load of a residual vector leaves nothing of it free, nor do the inertia forces of a given mode.
                 let relief = freedom.relief.clone().filter(|_| matches!(named, Named::Relief(_) | Named::Rigid(_)));
-                let all = relief.unwrap_or_else(|| Mat::identity(n, n));
+                let (all, left) = relief.unwrap_or_else(|| (Mat::identity(n, n), 0.0));
+                if let Some((softest, answer)) = softest(projected) {
+                    slots.iter().for_each(|slot| open[(softest, *slot)] += left * answer);
+                }
                 let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
                 place(&mut turned, (&columns, &slots), dense::columns(all.as_ref(), &numbers).as_ref());
             }
@@ -104,6 +108,17 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
         columns: with_probes(Mat::identity(p, p), &turned),
         amplified: with_probes(Mat::zeros(p, p), &amplified),
     })
+}
+
+/// The softest named column, and the most of it that the interior answers to the inertia of a motion of unit mass: 1/λ in inertia and 1/√λ in
+/// energy. What deforms in a motion of the file, by rounding, answers likewise, which next to short columns is more than its share of them.
+fn softest(projected: &Projected) -> Option<(usize, f64)> {
+    let p = projected.n_probes();
+    let of = |form: &Form, j: usize| form.matrix[(p + j, p + j)];
+    let pairs = (0..projected.named.len()).map(|j| (j, of(&projected.stiffness, j), of(&projected.mass, j)));
+    let massive = pairs.filter(|(_, stiffness, mass)| *stiffness > 0.0 && *mass > 0.0);
+    let least = massive.min_by(|(_, k, m), (_, l, n)| (k / m).total_cmp(&(l / n)));
+    least.map(|(j, stiffness, mass)| (j, mass.sqrt() / stiffness))
 }
 
 /// Whether a column is what static modes leave of a rigid-body mode.

@@ -64,7 +64,7 @@ impl FreeAnswers {
     }
 }
 
-/// ± ε (|K||x| + |f|) of answers x to loads f, and the largest ‖f − Kx‖ / ‖f‖ of what is in balance, in the scales of the dofs.
+/// ± ε (|K||x| + |f|) of answers x to loads f, and the largest ‖f − Kx‖ / ‖f‖ of what both have in balance, in the scales of the dofs.
 fn roundings(problem: ModalProblem<'_>, x: &Mat<f64>, loads: MatRef<'_, f64>) -> (Mat<f64>, f64) {
     let [q, mass_q] = problem.deflated;
     let mut balanced = loads.to_owned();
@@ -72,7 +72,10 @@ fn roundings(problem: ModalProblem<'_>, x: &Mat<f64>, loads: MatRef<'_, f64>) ->
     let (forces, mut terms) = product_and_terms(problem.stiffness, x.as_ref());
     let scale: Vec<f64> = problem.stiffness.diagonal().into_iter().map(dense::power_of_two_root).collect();
     let length = |column: &[f64]| dense::norm(&column.iter().zip(&scale).map(|(f, d)| f * d).collect::<Vec<f64>>());
-    let left = &balanced - &forces;
+    // What K leaves of motions without energy, by its digits, is no lack of a solve.
+    let mut left = &balanced - &forces;
+    let along = dense::gram(q, left.as_ref());
+    dense::add_product(left.as_mut(), -1.0, mass_q, along.as_ref());
     let ratio = |j: usize| length(dense::column(left.as_ref(), j)) / length(dense::column(balanced.as_ref(), j));
     let residual = dense::worst((0..x.ncols()).map(ratio));
     terms += dense::absolute(balanced.as_ref());

@@ -72,6 +72,7 @@ pub(super) fn error_bars(superelement: &Superelement, file: &Scaled, asked: &Ask
         let found = match error_bar_hz {
             Some(bar) => {
                 let [low, high] = of_data[mode];
+                let high = high.max(reach_of_mean(*stated, file, (asked, &of_data)));
                 let of_lambda = [low, high + NOISE_FACTOR * of_residual];
                 // Frequencies have bars of their own, which reach to the farther root.
                 outside(bar / frequency_hz, of_lambda.map(|bar| frequency_bar(bar / same_lambda, 1.0)))
@@ -105,6 +106,15 @@ fn shares_of_data(modes: &Modes) -> Vec<[f64; 2]> {
         [least.max(error.data_bar - away), error.data_bar + away]
     };
     modes.errors.iter().zip(taken_for_one(&modes.lambda, &modes.errors)).map(of_mode).collect()
+}
+
+/// How far the bar of a mean has to reach that a file states for several modes, relative to it: to all of these as they were found again, whether
+/// or not the same ones were taken for one then; nothing where a file states an eigenvalue once.
+fn reach_of_mean(stated: f64, file: &Scaled, (asked, of_data): (&AskedModes, &[[f64; 2]])) -> f64 {
+    let found = file.lambda.iter().zip(asked.lambda()).zip(of_data);
+    let of_mean = found.filter(|((other, _), _)| **other == stated);
+    let reaches: Vec<f64> = of_mean.map(|((_, lambda), [_, high])| (lambda / stated - 1.0).abs() + high).collect();
+    if reaches.len() > 1 { reaches.into_iter().fold(0.0, f64::max) } else { 0.0 }
 }
 
 /// What rounding of products makes of the terms of each mode, relative to them. An eigensolver takes a pair at 16 ε of the largest terms and
