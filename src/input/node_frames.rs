@@ -135,46 +135,60 @@ fn vector(row: &Row<'_>, columns: &[usize]) -> Result<[f64; 3]> {
 /// The decimals of a table of axes.
 #[derive(Default)]
 struct TableDigits {
-    /// Line of each node, and decimals of those of its directions that look rounded.
-    of_node: BTreeMap<i64, (u64, Option<i32>)>,
+    /// Line of each node, and its directions.
+    of_node: BTreeMap<i64, (u64, [[f64; 3]; 2])>,
     /// The most that a number of the table has.
     most: i32,
+    /// The most significant digits that one has.
+    most_digits: i32,
+    /// The most decimals of those numbers from a tenth to one.
+    most_of_large: i32,
 }
 
 impl TableDigits {
     fn take(&mut self, node: i64, line: u64, directions: [[f64; 3]; 2]) {
-        let fewest = directions.into_iter().filter_map(rounded_to).min();
-        self.of_node.insert(node, (line, fewest));
-        self.most = directions.into_iter().map(decimals).fold(self.most, i32::max);
+        self.of_node.insert(node, (line, directions));
+        for value in directions.into_iter().flatten().filter(|value| *value != 0.0).map(Decimal::of) {
+            self.most = self.most.max(value.n_decimals());
+            self.most_digits = self.most_digits.max(value.n_digits as i32);
+            if value.exponent == -1 {
+                self.most_of_large = self.most_of_large.max(value.n_decimals());
+            }
+        }
+    }
+
+    /// To how many decimals its large components are known: those that it has, and where small ones have more, as a format of significant digits
+    /// writes them, as many as such digits.
+    fn decimals(&self) -> i32 {
+        let is_of_digits = self.most > self.most_digits && self.most_of_large == self.most_digits;
+        if is_of_digits { self.most_digits } else { self.most }
     }
 
     /// The nodes whose axes look rounded. A table of few decimals has them for all of its numbers: zeros and ones were rounded too.
     fn rounded(&self) -> BTreeMap<i64, AxisDigits> {
+        let most = self.decimals();
+        let fewest = |directions: &[[f64; 3]; 2]| directions.iter().filter_map(|of| rounded_to(*of, most)).min();
         let is_coarse =
-            (1..AxisDigits::ENOUGH).contains(&self.most) && self.of_node.values().any(|(_, of)| of.is_some());
-        let of_table = is_coarse.then_some(self.most);
-        let of = |(node, (line, own)): (&i64, &(u64, Option<i32>))| {
-            Some((*node, AxisDigits { line: *line, decimals: of_table.or(*own)? }))
+            (1..AxisDigits::ENOUGH).contains(&most) && self.of_node.values().any(|(_, of)| fewest(of).is_some());
+        let of_table = is_coarse.then_some(most);
+        let of = |(node, (line, own)): (&i64, &(u64, [[f64; 3]; 2]))| {
+            Some((*node, AxisDigits { line: *line, decimals: of_table.or_else(|| fewest(own))? }))
         };
         self.of_node.iter().filter_map(of).collect()
     }
 }
 
-/// The most decimals that a component of a direction has. Where small ones have more than their own digits are, as a format of significant
-/// digits writes them, the largest ones are known to fewer: to those that they have.
+/// The most decimals that a component of a direction has.
 fn decimals(direction: [f64; 3]) -> i32 {
-    let of = || direction.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value));
-    let (most, digits) =
-        of().fold((0, 0), |(most, digits), of| (of.n_decimals().max(most), (of.n_digits as i32).max(digits)));
-    let is_of_digits = of().any(|of| of.exponent == -1 && of.n_decimals() == digits);
-    if most > digits && is_of_digits { digits } else { most }
+    let of = direction.iter().filter(|value| **value != 0.0).map(|value| Decimal::of(*value).n_decimals());
+    of.max().unwrap_or(0)
 }
 
-/// The decimals that a direction of about unit length looks rounded to, none for other directions, which are as they are meant. Of a length
+/// The decimals, `most` at most, that a direction of about unit length looks rounded to, none for other directions, which are as they are meant. Of a length
 /// that is one to its last bit it is told from few decimals alone.
-fn rounded_to(direction: [f64; 3]) -> Option<i32> {
+fn rounded_to(direction: [f64; 3], most: i32) -> Option<i32> {
     let off = (direction.iter().map(|value| value * value).sum::<f64>().sqrt() - 1.0).abs();
-    let decimals = decimals(direction);
+    let decimals = decimals(direction).min(most);
     let is_near = off <= 2.0 * 10f64.powi(-decimals) && (off > WHOLE || decimals < AxisDigits::ENOUGH);
     (decimals > 0 && is_near).then_some(decimals)
 }
@@ -190,14 +204,12 @@ mod tests {
             ([0.71, 0.71, 0.0], Some(2)),
             ([0.9, 0.5, 0.0], Some(1)),
             ([0.6, 0.8, 0.0], Some(1)),
-            ([0.99999, 0.0041235, 0.0], Some(5)),
-            ([0.71, 0.70, 0.0071], Some(2)),
             ([0.6, 0.799999, 0.000123], Some(6)),
             ([1.0, 1.0, 0.0], None),
             ([0.0, 0.0, 2.5], None),
             ([0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0], None),
         ] {
-            assert_eq!(rounded_to(direction), expected, "{direction:?}");
+            assert_eq!(rounded_to(direction, 17), expected, "{direction:?}");
         }
     }
 
