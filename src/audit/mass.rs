@@ -257,13 +257,14 @@ pub(super) fn gravity(content: &Content<'_>) -> Option<Check> {
         }
     }
     let limits = Limits { engineering: 1e-2 * fail_above, arithmetic: OF_TERMS * cancelled, data: 0.0 };
+    let limits = limits.capped(1e-6, 0.0);
     Some(Check {
         id: "M-18",
         name: "loads of gravity are those of M̂",
         equation: "max ‖g − M̂Û_t‖ / ‖M̂Û_t‖ over unit fields, Û_t unit translations",
         value: worst.0,
-        limits: limits.capped(1e-6, 0.0),
-        fail_above: fail_above.max(10.0 * limits.capped(1e-6, 0.0).value()),
+        limits,
+        fail_above: fail_above.max(10.0 * limits.value()),
         worst: worst.1,
     })
 }

@@ -17,6 +17,13 @@ pub enum ErrorClass {
     Io = 7,
 }
 
+impl ErrorClass {
+    /// Whether it speaks of what the matrices are or of what arithmetic makes of them, and not of files, of the command line or of the machine.
+    pub fn is_of_matrices(self) -> bool {
+        matches!(self, Self::ModelPhysics | Self::NumericalLimit)
+    }
+}
+
 /// The code of a command line that cannot be read at all; no [`Error`](super::Error) has it.
 pub const USAGE_CODE: &str = "E-USAGE";
 /// The code of a defect of the program; no [`Error`](super::Error) has it.

@@ -12,7 +12,7 @@ use super::retreat::{Retreat, retreat};
 use super::sizes::{self, Sizes};
 use super::units::{self, Units};
 use crate::dofs::Nodes;
-use crate::error::{Error, ErrorClass};
+use crate::error::Error;
 use crate::input::{Face, InputFacts};
 use crate::job::Job;
 use crate::number::{counted, quantity};
@@ -81,7 +81,7 @@ impl Examination {
     pub fn refused(&mut self, job: &Job, error: &Error, went_on: Option<&str>) {
         let finding = Finding::of_error(error, went_on);
         // Without nodes and map another name of the place is all that differs.
-        let is_of_matrices = matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit);
+        let is_of_matrices = error.class().is_of_matrices();
         let is_known =
             |other: &&mut Finding| other.code == finding.code && (is_of_matrices || other.what == finding.what);
         match self.findings.iter_mut().find(is_known) {

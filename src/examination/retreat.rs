@@ -17,7 +17,7 @@ pub struct Retreat {
 
 /// Whether an error speaks of the model, and not of the machine or of the command line.
 pub fn is_of_model(error: &Error) -> bool {
-    matches!(error.class(), ErrorClass::InputData | ErrorClass::ModelPhysics | ErrorClass::NumericalLimit)
+    error.class() == ErrorClass::InputData || error.class().is_of_matrices()
 }
 
 /// What to try after an error; none where nothing is left to be tried, or the error does not speak of the model.

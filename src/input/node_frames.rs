@@ -137,31 +137,30 @@ fn vector(row: &Row<'_>, columns: &[usize]) -> Result<[f64; 3]> {
 struct TableDigits {
     /// Line of each node, and its directions.
     of_node: BTreeMap<i64, (u64, [[f64; 3]; 2])>,
-    /// The most that a number of the table has.
-    most: i32,
-    /// The most significant digits that one has.
-    most_digits: i32,
-    /// The most decimals of those numbers from a tenth to one.
-    most_of_large: i32,
 }
 
 impl TableDigits {
     fn take(&mut self, node: i64, line: u64, directions: [[f64; 3]; 2]) {
         self.of_node.insert(node, (line, directions));
-        for value in directions.into_iter().flatten().filter(|value| *value != 0.0).map(Decimal::of) {
-            self.most = self.most.max(value.n_decimals());
-            self.most_digits = self.most_digits.max(value.n_digits as i32);
-            if value.exponent == -1 {
-                self.most_of_large = self.most_of_large.max(value.n_decimals());
-            }
-        }
     }
 
     /// To how many decimals its large components are known: those that it has, and where small ones have more, as a format of significant digits
     /// writes them, as many as such digits.
     fn decimals(&self) -> i32 {
-        let is_of_digits = self.most > self.most_digits && self.most_of_large == self.most_digits;
-        if is_of_digits { self.most_digits } else { self.most }
+        let (mut most, mut digits, mut most_of_large) = (0, 0, 0);
+        for value in
+            self.of_node.values().flat_map(|(_, directions)| directions.as_flattened()).filter(|value| **value != 0.0)
+        {
+            let decimal = Decimal::of(*value);
+            most = decimal.n_decimals().max(most);
+            digits = (decimal.n_digits as i32).max(digits);
+            // From a tenth to one.
+            if decimal.exponent == -1 {
+                most_of_large = decimal.n_decimals().max(most_of_large);
+            }
+        }
+        let is_of_digits = most > digits && most_of_large == digits;
+        if is_of_digits { digits } else { most }
     }
 
     /// The nodes whose axes look rounded. A table of few decimals has them for all of its numbers: zeros and ones were rounded too.
@@ -184,8 +183,8 @@ fn decimals(direction: [f64; 3]) -> i32 {
     of.max().unwrap_or(0)
 }
 
-/// The decimals, `most` at most, that a direction of about unit length looks rounded to, none for other directions, which are as they are meant. Of a length
-/// that is one to its last bit it is told from few decimals alone.
+/// The decimals, `most` at most, that a direction of about unit length looks rounded to, none for other directions, which are as they are
+/// meant. Of a length that is one to its last bit it is told from few decimals alone.
 fn rounded_to(direction: [f64; 3], most: i32) -> Option<i32> {
     let off = (direction.iter().map(|value| value * value).sum::<f64>().sqrt() - 1.0).abs();
     let decimals = decimals(direction).min(most);

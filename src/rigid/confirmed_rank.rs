@@ -4,7 +4,7 @@ use super::of_partition::counted_by_matrices;
 use super::rank::{InterfaceRank, RANK_TOLERANCE, rank_within};
 use super::rigid_body_modes::RigidBodyModes;
 use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
-use crate::error::{ErrorClass, Result};
+use crate::error::Result;
 use crate::factor::Cholesky;
 use crate::job::Eigensolver;
 use crate::partition::Partition;
@@ -42,9 +42,7 @@ pub fn confirmed_rank(
                     Ok((rank, n_factorisations))
                 }
                 // What the digits do not let be counted is no lack of this interface.
-                Err(error) if matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit) => {
-                    Ok((rank, 0))
-                }
+                Err(error) if error.class().is_of_matrices() => Ok((rank, 0)),
                 Err(error) => Err(error),
             }
         }

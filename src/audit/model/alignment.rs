@@ -70,10 +70,10 @@ pub(super) fn combination(file: &Scaled, projected: &Projected, freedom: &Freedo
                 let n = columns.len();
                 // The load of a residual vector leaves nothing of it free, nor do the inertia forces of a given mode.
                 let relief = freedom.relief.clone().filter(|_| matches!(named, Named::Relief(_) | Named::Rigid(_)));
-                let (all, left) = relief.unwrap_or_else(|| (Mat::identity(n, n), 0.0));
-                if let Some((softest, answer)) = softest(projected) {
+                if let (Some((_, left)), Some((softest, answer))) = (&relief, softest(projected)) {
                     slots.iter().for_each(|slot| open[(softest, *slot)] += left * answer);
                 }
+                let all = relief.map_or_else(|| Mat::identity(n, n), |(motions, _)| motions);
                 let numbers: Vec<usize> = slots.iter().map(|slot| freedom.kept[*slot] - columns[0]).collect();
                 place(&mut turned, (&columns, &slots), dense::columns(all.as_ref(), &numbers).as_ref());
             }

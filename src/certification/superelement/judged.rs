@@ -13,7 +13,7 @@ use crate::certification::band::Band;
 use crate::certification::certified::lowest_elastic;
 use crate::dense;
 use crate::eigen::{Modes, Spectral};
-use crate::error::{ErrorClass, Result};
+use crate::error::Result;
 use crate::job::{Certify, InterfaceJob, Job, Method, ModeSelection, ReductionJob, SceneJob};
 use crate::modes::{Component, ModeSource, Search, certified};
 use crate::number::counted;
@@ -79,7 +79,7 @@ impl ReducedCertification {
                 self.preservation = Some(preservation);
                 Ok(())
             }
-            Err(error) if matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit) => {
+            Err(error) if error.class().is_of_matrices() => {
                 self.notes.push(format!("nothing was compared at the interface: {error}"));
                 let what = "statics, other boundaries and responses at the interface".to_owned();
                 self.checks.extend(unmade_check(&[Unmade { what, is_of_reduced: false }]));
@@ -103,7 +103,7 @@ impl ReducedCertification {
                 self.checks.sort_by_key(place);
                 Ok(())
             }
-            Err(error) if matches!(error.class(), ErrorClass::ModelPhysics | ErrorClass::NumericalLimit) => {
+            Err(error) if error.class().is_of_matrices() => {
                 self.notes.push(format!("whether modes of its own were left out is not known: {error}"));
                 Ok(())
             }
