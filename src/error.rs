@@ -2969,6 +2969,27 @@ pub enum Error {
         /// The first of them.
         first: String,
     },
+    /// The rows of a direction are coupled as those of other nodes are.
+    #[entry(
+        "E-DIRECTION-ORDER",
+        InputData,
+        "check the dof map: the rows of each direction have to be in the order of the nodes"
+    )]
+    #[error(
+        "at {n_strayed} of {n_nodes} nodes the {what} couples a direction with the neighbours of another node, the first at {first} – \
+        expected those that it couples all other directions with, because elements take part in all directions of their nodes – check \
+        the dof map, and that the rows of each direction are in the order of the nodes"
+    )]
+    DirectionInAnotherOrder {
+        /// The matrix.
+        what: &'static str,
+        /// Nodes at which they are.
+        n_strayed: usize,
+        /// Nodes of the model.
+        n_nodes: usize,
+        /// The row of the first of them.
+        first: String,
+    },
     /// A motion as a whole, or of a mechanism, has negative energy, and a count finds the eigenvalue.
     #[entry("E-NEG-RIGID", ModelPhysics, "check preload and negative springs")]
     #[error(

@@ -20,9 +20,10 @@ use crate::random::SEED;
 use crate::reduction::Reduction;
 use crate::report::Observer;
 use crate::rigid::{self, InterfaceRank, RigidBodyModes};
+use crate::rubin::{self, Reaction};
+use crate::size_forecast;
 use crate::unseen::unseen_modes;
 use crate::verification::{self, Evidence};
-use crate::{rubin, size_forecast};
 
 /// The first four stages, which every look at the full model begins with.
 pub(crate) fn prepared(
@@ -77,7 +78,7 @@ pub(crate) fn prepared(
     partition.matrices = CarriedMatrix::carried(matrices, &partition.transformation)?;
     partition.carry_loads(loads, &job.loads)?;
     if let Some(modes) = modes {
-        partition.expansion = Expansion::carried(&modes, &partition.transformation)?;
+        partition.expansion = Expansion::carried(&modes, (&partition.transformation, &partition.mass))?;
     }
     partition.model.weight = weight;
     job.reduction.held.as_ref().map_or(Ok(()), |held| partition.hold_for_modes(held))?;
@@ -109,7 +110,8 @@ pub(crate) fn with_component<T>(
     // The analysis reads the pattern of the matrices alone, so that it runs at the same time.
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(partition), || partition.analysis());
     let ((rigid, n_extra), analysis) = (rigid?, analysis?);
-    let (rank, plan) = known(plan, partition, &rigid)?;
+    let (Reaction { rank, every, n_factorisations: n_counted }, plan) = known(plan, partition, &rigid)?;
+    let rigid = every.unwrap_or(rigid);
 
     observer.stage("factor");
     let compared = Comparisons::in_memory(&plan, (partition, &analysis), None);
@@ -123,19 +125,17 @@ pub(crate) fn with_component<T>(
             .map_err(|error| naming_unloaded(error, &plan))?;
     loose.refuse_unmeant(plan.job().model.mechanisms, partition, &rigid)?;
     let component = Component::new(partition, &analysis, &factor, &rigid, held.as_ref());
-    let n_other_factors = n_extra + n_factorisations;
+    let n_other_factors = n_extra + n_counted + n_factorisations;
     then(Conditioned { component, plan: &plan, rank, loose: &loose, storage, n_other_factors }, observer)
 }
 
-/// How well the interface reacts rigid-body motion, none where it leaves some of it free, and the plan with what the model decides.
-pub(crate) fn known(
-    plan: &Plan,
-    partition: &Partition,
-    rigid: &RigidBodyModes,
-) -> Result<(Option<InterfaceRank>, Plan)> {
+/// How the interface reacts motions without energy, and the plan with what the model decides.
+pub(crate) fn known(plan: &Plan, partition: &Partition, rigid: &RigidBodyModes) -> Result<(Reaction, Plan)> {
     refuse_resistance(plan.job(), partition, rigid)?;
-    let rank = rubin::rank_or_attachment(partition, rigid, plan).map_err(|error| naming_unloaded(error, plan))?;
-    Ok((rank, plan.knowing(rigid::facts(partition, rigid, rank))))
+    let counted = || rigid::counted_by_matrices(partition, rigid.clone());
+    let reaction = rubin::reaction(partition, (rigid, counted), plan).map_err(|error| naming_unloaded(error, plan))?;
+    let facts = rigid::facts(partition, reaction.every.as_ref().unwrap_or(rigid), reaction.rank);
+    Ok((reaction, plan.knowing(facts)))
 }
 
 /// An interface that lacks a motion, with what the scene leaves unloaded of it.

@@ -20,12 +20,12 @@ use supel_runtime::{Coordinate, Flag, Superelement};
 use crate::basis::Basis;
 use crate::dense::{self, unpacked};
 use crate::error::{Error, Result};
-use crate::job::ReductionJob;
+use crate::job::{Mechanisms, ReductionJob};
 use crate::modes::Retained;
 use crate::partition::Partition;
 use crate::plan::Plan;
 use crate::reduction::Reduction;
-use crate::rigid::{InterfaceRank, RigidBodyModes, interface_rank};
+use crate::rigid::{InterfaceRank, RigidBodyModes, interface_rank, rank_of_every};
 
 /// Steps that take rigid-body motion out of the static modes: each leaves rounding of what the one before it left.
 const REFINEMENTS: usize = 2;
@@ -142,18 +142,55 @@ pub struct Rubin {
     pub rigid_body_mass: Mat<f64>,
 }
 
-/// The rank of the interface; none where it leaves rigid-body motions free and the method of the job is Rubin's, whose static modes do
-/// without: the answers of the free component to loads stand in the place of constraint modes. What few digits turn rigid-body modes by is no
+/// How an interface reacts the motions without energy.
+#[derive(Clone, Debug)]
+pub struct Reaction {
+    /// Its rank; none where it leaves some of them free and the method of the job is Rubin's, whose static modes do without: the answers of
+    /// the free component to loads stand in the place of constraint modes.
+    pub rank: Option<InterfaceRank>,
+    /// All of those motions, where it leaves mechanisms free.
+    pub every: Option<RigidBodyModes>,
+    /// Factorisations that counting them took.
+    pub n_factorisations: usize,
+}
+
+impl Reaction {
+    /// Of an interface that reacts rigid-body motions so well.
+    fn of_rank(rank: Option<InterfaceRank>) -> Self {
+        Self { rank, every: None, n_factorisations: 0 }
+    }
+}
+
+/// How the interface reacts the motions without energy; for Rubin's method those of mechanisms that are meant as well, of which the matrices
+/// tell: `counted` is all motions without energy with the factorisations that they took. What few digits turn rigid-body modes by is no
 /// reaction of the interface.
 ///
 /// # Errors
-/// Any error of the rank for another method.
-pub fn rank_or_attachment(partition: &Partition, rigid: &RigidBodyModes, plan: &Plan) -> Result<Option<InterfaceRank>> {
-    let has_attachment_modes = plan.job().reduction.method.has_attachment_modes();
-    match interface_rank(partition, rigid) {
-        Err(Error::InterfaceRank { .. }) if has_attachment_modes => Ok(None),
-        Ok(rank) if has_attachment_modes && rank.singular_ratio <= rigid.energy.angle => Ok(None),
-        rank => rank.map(Some),
+/// Any error of the rank for another method; memory of the count.
+pub fn reaction(
+    partition: &Partition,
+    (rigid, counted): (&RigidBodyModes, impl FnOnce() -> Result<(RigidBodyModes, usize)>),
+    plan: &Plan,
+) -> Result<Reaction> {
+    if !plan.job().reduction.method.has_attachment_modes() {
+        return interface_rank(partition, rigid).map(|rank| Reaction::of_rank(Some(rank)));
+    }
+    let rank = match interface_rank(partition, rigid) {
+        Err(Error::InterfaceRank { .. }) => return Ok(Reaction::of_rank(None)),
+        Ok(rank) if rank.singular_ratio <= rigid.energy.angle => return Ok(Reaction::of_rank(None)),
+        rank => rank?,
+    };
+    if plan.job().model.mechanisms != Mechanisms::Accept || partition.n_interface() == 0 {
+        return Ok(Reaction::of_rank(Some(rank)));
+    }
+    let (every, n_factorisations) = match counted() {
+        // What the digits do not let be counted is no lack of this interface.
+        Err(error) if error.class().is_of_matrices() => return Ok(Reaction::of_rank(Some(rank))),
+        counted => counted?,
+    };
+    match rank_of_every(partition, (rigid, &every)) {
+        Err(Error::InterfaceRank { .. }) => Ok(Reaction { rank: None, every: Some(every), n_factorisations }),
+        rank_of_every => rank_of_every.map(|_| Reaction { rank: Some(rank), every: None, n_factorisations }),
     }
 }
 

@@ -6,7 +6,7 @@
 use crate::model::Material;
 
 /// Abscissa of two-point Gauss quadrature, 1/√3; both weights are one.
-const GAUSS: f64 = 0.577_350_269_189_625_8;
+pub(crate) const GAUSS: f64 = 0.577_350_269_189_625_8;
 
 /// Corners of the reference cube in the order VTK, XDMF and MED share with the Abaqus C3D8.
 pub const HEX_CORNERS: [[f64; 3]; 8] = [

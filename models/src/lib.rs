@@ -2,7 +2,7 @@
 //!
 //! Every model is computed, none is read: the same arguments give the same bits on every machine that rounds as
 //! IEEE 754 says. Families with a closed-form spectrum ([`mod@bar`], [`spring`], [`ring`], [`mod@known`]) come with it; the
-//! solids ([`brick`], [`hexahedra`], [`tetrahedra`]), membranes ([`mod@membrane`]) and frames ([`mod@frame`]) carry their rigid-body modes to
+//! solids ([`brick`], [`hexahedra`], [`tetrahedra`]), membranes ([`mod@membrane`]), shells ([`mod@shell`]) and frames ([`mod@frame`]) carry their rigid-body modes to
 //! rounding. [`mod@part`] makes three of them in any size for benchmarks. [`superelements`]
 //! are what programs that simulate read. [`transform`] turns one model into another: joined, scaled, rounded.
 
@@ -20,6 +20,7 @@ pub mod membrane;
 pub mod model;
 pub mod part;
 pub mod random;
+pub mod shell;
 pub mod springs;
 pub mod superelements;
 pub mod tetrahedra;
@@ -38,4 +39,5 @@ pub use membrane::membrane;
 pub use model::{Assembler, Material, Model};
 pub use part::{Family, Part};
 pub use random::{SplitMix64, fnv1a};
+pub use shell::{Wall, shell};
 pub use tetrahedra::TetMesh;

@@ -49,7 +49,7 @@ use crate::partition::Partition;
 use crate::plan::{Plan, Unseen};
 use crate::reduction::Reduction;
 use crate::rigid::{self, RigidBodyModes, RigidSource};
-use crate::rubin::rank_or_attachment;
+use crate::rubin::reaction;
 use crate::verification::Evidence;
 use crate::verification::check::{Check, Limits, Verdict};
 use crate::verification::limits::{self, energy_noise};
@@ -316,8 +316,8 @@ impl Free {
             }
             Boundary::FixedInterface | Boundary::MixedInterface => None,
         };
-        let rank = rank_or_attachment(partition, given, plan);
-        let is_attached = !is_modal && matches!(rank, Ok(None));
+        let reaction = reaction(partition, (given, || Ok((full.zero.clone(), 0))), plan);
+        let is_attached = !is_modal && reaction.is_ok_and(|reaction| reaction.rank.is_none());
         let motions = KnownMotions::of(&full, given);
         let motions = if is_attached { motions.seen_in_part(given.count()) } else { motions };
         let operator = Factored::new(&full.factor, full.sigma);

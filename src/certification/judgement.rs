@@ -21,6 +21,7 @@ use crate::dense;
 use crate::eigen::frequency_bar;
 use crate::modes::BoundaryProblem;
 use crate::sparse::product;
+use crate::verification::limits::LARGEST_EXPLAINED_ENERGY;
 
 /// Relative difference of a frequency beyond which it is not that of its mode: reduced models are accepted with less.
 pub(super) const INEXACT: f64 = 1e-3;
@@ -179,7 +180,7 @@ impl Context<'_> {
         let Some(own) = stated.or_else(|| Some(measured.lambda[claim]).filter(|_| !of_shape.is_rounded)) else {
             return false;
         };
-        let of_digits = |first: f64| of_digits_in_energy(measured, claim, first).min(MOST_OF_DIGITS);
+        let of_digits = |first: f64| of_digits_in_energy(measured, claim, first).min(LARGEST_EXPLAINED_ENERGY);
         truth.completed.first_elastic.is_some_and(|first| own.abs() > NOT_RIGID.max(of_digits(first)) * first)
     }
 

@@ -7,7 +7,8 @@ use super::claims::Claims;
 use super::independence::Standing;
 use super::measured::Measured;
 
-/// Relative difference of a frequency, and energy of rigid-body motion relative to the first elastic one, that no digits excuse.
+/// Relative difference of a frequency that no digits excuse, and energy of rigid-body motion relative to the first elastic one that they
+/// excuse without a warning.
 pub(super) const MOST_OF_DIGITS: f64 = 1e-2;
 
 /// What the shape of a pair leaves open.

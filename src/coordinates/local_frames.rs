@@ -181,7 +181,8 @@ fn turned_nodes(
         turned.push((rows[0], 2.0 * (square / 8.0).sqrt().min(1.0).asin()));
     }
     let worst = turned.iter().fold(0.0, |max: f64, (_, angle)| max.max(*angle));
-    turned.retain(|(_, angle)| *angle > STAYS_BEHIND * worst);
+    // What rows that were taken out around a node hold of it looks the same.
+    turned.retain(|(row, angle)| *angle > STAYS_BEHIND * worst && !nodes.is_near_lack(nodes.of(*row)));
     (stays <= STAYS_BEHIND * off).then_some(turned)
 }
 

@@ -13,6 +13,7 @@ use super::modes::Modes;
 use super::operator::ShiftInvert;
 use super::problem::{EigenWork, Eigenpairs, Interval, Problem, Wanted, are_clustered};
 use super::quality::{self, ModeError};
+use super::ritz::{RESIDUAL_FLOOR, TOLERANCE};
 use crate::dense;
 use crate::error::Result;
 use crate::sparse::{Precision, product};
@@ -116,6 +117,16 @@ fn n_near(found: &Modes, sigma: f64) -> usize {
 /// Backward error of a mode that lacks no digits: those that the data do not have are not missed.
 pub(crate) fn settled_at(precision: Precision) -> f64 {
     SETTLED.max(precision.share())
+}
+
+/// Whether a mode has a backward error above what an eigensolver leaves – it takes a pair at a residual of so many ε of the largest θ, and digits
+/// that the data lack may be forces of the motions that are deflated – or a residual that leaves more of λ in doubt than the data do: the
+/// operator was another one than that of K and M.
+pub(crate) fn are_left_inexact(problem: ModalProblem<'_>, modes: &Modes) -> bool {
+    let of_largest = RESIDUAL_FLOOR * f64::EPSILON * modes.spread();
+    let taken_at = TOLERANCE.max(of_largest).max(problem.precision.share());
+    let is_open = |error: &ModeError| error.residual_bar > SETTLED_BAR.max(error.data_bar);
+    modes.largest_backward() > taken_at || modes.errors.iter().any(is_open)
 }
 
 fn search(problem: ModalProblem<'_>, eigenproblem: Problem<'_>, request: ModeRequest) -> Result<Modes> {

@@ -33,7 +33,7 @@ pub(crate) mod zero;
 pub use cluster::REPEATED_WITHIN;
 pub(crate) use cluster::{mean_is_away, taken_for_one};
 pub(crate) use dense_pencil::{eigenvalue_beyond, eigenvalues, lowest_eigenpairs, lowest_ratio_of};
-pub(crate) use elastic::{CARRIES_NOTHING, judged, pairs_between, purified, settled_at};
+pub(crate) use elastic::{CARRIES_NOTHING, are_left_inexact, judged, pairs_between, purified, settled_at};
 pub use elastic::{Eigensolver, ModeRequest, elastic_modes};
 pub(crate) use elastic_scale::{elastic_scale, relief_scale};
 pub use equilibration::Equilibrated;

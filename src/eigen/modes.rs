@@ -50,6 +50,17 @@ impl Modes {
         self.lambda.last().zip(self.lambda.first()).map_or(1.0, |(last, first)| last / first)
     }
 
+    /// These modes after other work.
+    pub(crate) fn after(mut self, work: EigenWork) -> Self {
+        self.work += work;
+        self
+    }
+
+    /// The largest backward error; zero without modes.
+    pub fn largest_backward(&self) -> f64 {
+        dense::worst(self.errors.iter().map(|error| error.backward))
+    }
+
     /// How much larger than the modal energy the terms that cancel in it are, at most.
     pub fn largest_cancellation(&self) -> f64 {
         self.errors.iter().map(|error| error.cancellation).fold(0.0, f64::max)

@@ -119,6 +119,17 @@ pub enum Finding {
         /// Some of them.
         at: String,
     },
+    /// Rows of one direction, or of all rotations, that are coupled as those of other nodes are.
+    DirectionOfOthers {
+        /// The matrix.
+        what: &'static str,
+        /// At how many nodes.
+        n_strayed: usize,
+        /// Nodes of the model.
+        n_nodes: usize,
+        /// Some of these rows.
+        at: String,
+    },
     /// Rotations that the job says to be held and that K lets pass.
     RotationsFree {
         /// The rotations, `rx` to `rz`.
@@ -269,6 +280,7 @@ impl Finding {
                 Some("W-COORD-UNTESTED")
             }
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
+            Self::DirectionOfOthers { .. } => Some("W-DIRECTION-ORDER"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
             Self::FrameDigits { .. } => Some("W-FRAME-DIGITS"),
             Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
@@ -314,6 +326,9 @@ impl std::fmt::Display for Finding {
                 "the motions without energy of K cannot be counted, for it is badly conditioned or has mechanisms of its own: nothing \
                  confirms the coordinates where supports are; check that rows and map are in one order",
             ),
+            Self::DirectionOfOthers { what, n_strayed, n_nodes, at } => {
+                f.write_str(&words::direction_of_others(what, [*n_strayed, *n_nodes], at))
+            }
             Self::MassByDirection { n_nodes, at } => f.write_str(&words::mass_by_direction(*n_nodes, at)),
             Self::RotationsFree { rotations } => f.write_str(&words::rotations_free(rotations)),
             Self::OriginFar { interface, origin, ratio } => f.write_str(&words::origin_far(interface, *origin, *ratio)),

@@ -106,6 +106,13 @@ pub(super) fn couples_others([n_apart, n_nodes]: [usize; 2], at: &str) -> String
     )
 }
 
+pub(super) fn direction_of_others(what: &str, [n_strayed, n_nodes]: [usize; 2], at: &str) -> String {
+    format!(
+        "at {n_strayed} of {n_nodes} nodes the {what} couples a direction with the neighbours of another node, and all other directions with \
+         its own: {at}; check the dof map, and that the rows of each direction are in the order of the nodes"
+    )
+}
+
 pub(super) fn origin_far(interface: &str, origin: [f64; 3], ratio: f64) -> String {
     format!(
         "the origin ({}) of interface {interface:?} is {} times the size of the part away from its nodes: check its unit; digits are \

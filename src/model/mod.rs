@@ -7,6 +7,7 @@
 mod added_mass;
 mod bodies;
 mod definite;
+mod direction_order;
 mod finding;
 mod finding_words;
 mod fit;
@@ -143,6 +144,9 @@ impl Model {
         }
         check_diagonals((&stiffness, &mass), names, &tied, &mut findings)?;
         findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
+        for matrix in [("stiffness", &stiffness), ("mass", &mass)] {
+            findings.extend(direction_order::compared(matrix, dofs.as_deref(), names)?);
+        }
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
         let in_scaled_units = |force: f64| force / scaling.stiffness_unit();

@@ -20,7 +20,8 @@ pub struct Weight {
     pub parts: Vec<PartWeight>,
     /// Largest distance along an axis between nodes that M gives mass to a translation, where coordinates are known: zero of a point.
     pub extent: f64,
-    /// Whether every node has all translations or none, so that no direction lacks mass that others have.
+    /// Whether every node has all translations or none, and all rotations or none where M couples them with translations, so that no
+    /// direction lacks mass that others have.
     pub has_whole_nodes: bool,
     /// Whether supports may have taken mass out of the matrices before they were read.
     pub supports: Supports,
@@ -71,15 +72,31 @@ impl Model {
         let mut masses = dense::gram(motions.as_ref(), momenta.as_ref());
         dense::symmetrise(&mut masses);
         let translations = std::array::from_fn(|axis| masses[(axis, axis)]);
-        let mut n_translations: HashMap<i64, usize> = HashMap::new();
-        for dof in dofs.iter().flatten().filter(|dof| !dof.direction.is_rotation()) {
-            *n_translations.entry(dof.node).or_default() += 1;
-        }
-        let has_whole_nodes = n_translations.values().all(|count| *count == 3);
+        let has_whole_nodes = self.has_whole_nodes(dofs);
         let parts = if sites.is_some() { self.weighed_parts(dofs, (&motions, &momenta)) } else { Vec::new() };
         let motions = sites.is_some().then_some(masses);
         let extent = sites.map_or(0.0, |sites| self.extent_of_mass(&sites));
         Some(Weight { translations, motions, parts, extent, has_whole_nodes, supports: self.supports })
+    }
+
+    fn has_whole_nodes(&self, dofs: &[Option<Dof>]) -> bool {
+        let translates = |row: usize| dofs[row].is_some_and(|dof| !dof.direction.is_rotation());
+        let is_coupled = |row: usize| {
+            let entries = self.mass.outer_view(row);
+            entries.iter().flat_map(|view| view.iter()).any(|(col, value)| *value != 0.0 && translates(col))
+        };
+        // Translations, rotations, and whether mass moves with one of these.
+        let mut nodes: HashMap<i64, ([usize; 2], bool)> = HashMap::new();
+        for (row, dof) in dofs.iter().enumerate().filter_map(|(row, dof)| dof.map(|dof| (row, dof))) {
+            let is_rotation = dof.direction.is_rotation();
+            let (count, moves_mass) = nodes.entry(dof.node).or_default();
+            count[usize::from(is_rotation)] += 1;
+            *moves_mass |= is_rotation && is_coupled(row);
+        }
+        let are_all = |count: usize| count == 0 || count == 3;
+        nodes.values().all(|([translations, rotations], moves_mass)| {
+            are_all(*translations) && (are_all(*rotations) || !moves_mass)
+        })
     }
 
     fn extent_of_mass(&self, sites: &[Option<Site>]) -> f64 {

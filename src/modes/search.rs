@@ -12,7 +12,7 @@ use super::slices::{Band, ModeSource, SLICE, search_between};
 use super::{Component, dense_spectrum, indefinite};
 use crate::cache::{Cache, Key, Kind, recalled};
 use crate::eigen::ElasticCount;
-use crate::eigen::{CLUSTER_GAP, ModeRequest, Modes, ShiftInvert, elastic_modes};
+use crate::eigen::{CLUSTER_GAP, ModeRequest, Modes, ShiftInvert, are_left_inexact, elastic_modes};
 use crate::eigen::{EigenWork, Interval, Wanted, are_clustered, is_above};
 use crate::error::{Error, Result};
 use crate::factor::Storage;
@@ -199,15 +199,24 @@ impl<'a> Search<'a> {
         let request = ModeRequest { wanted: self.wanted, eigensolver: self.eigensolver, seed };
         let problem = self.problem.modal();
         let solve = |operator: &dyn ShiftInvert| elastic_modes(problem, operator, request);
-        let (mut modes, n_factorisations) = match self.problem.with_lowest_operator(solve) {
-            // The factor of K_II serves two purposes; one of K − σM is made for this one.
-            Err(Error::LanczosStalled { .. }) if self.problem.boundary != Boundary::FixedInterface => {
-                self.problem.with_operator_below(solve)?
-            }
+        // The factor of K_II serves two purposes; one of K − σM is made for this one.
+        let below = || {
+            let (modes, n_factorisations) = self.problem.with_operator_below(solve)?;
+            Ok(modes.after(EigenWork { factorisations: n_factorisations, ..EigenWork::default() }))
+        };
+        let is_held = self.problem.boundary == Boundary::FixedInterface;
+        let (modes, n_factorisations) = match self.problem.with_lowest_operator(solve) {
+            Err(Error::LanczosStalled { .. }) if !is_held => return below(),
             found => found?,
         };
-        modes.work.factorisations += n_factorisations;
-        Ok(modes)
+        if is_held || n_factorisations > 0 || !are_left_inexact(problem, &modes) {
+            return Ok(modes.after(EigenWork { factorisations: n_factorisations, ..EigenWork::default() }));
+        }
+        // A motion that is local to a node of the interface turns the whole component about it in the answer of the held one, and rounding
+        // of that is left in the mode.
+        let again = below()?.after(modes.work);
+        let is_better = again.largest_backward() < modes.largest_backward();
+        Ok(if is_better { again } else { Modes { work: again.work, ..modes } })
     }
 
     fn in_slices(&self) -> Result<Modes> {

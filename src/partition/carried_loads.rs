@@ -23,7 +23,13 @@ impl Partition {
                 let [force, terms] = load.force_on(**dof, &self.transformation);
                 force.abs() > ROUNDING * terms
             });
-            let found: Vec<&str> = acts_on.map(|(_, name)| *name).collect();
+            // Nodes of one interface have one name for each direction.
+            let mut found: Vec<&str> = Vec::new();
+            for (_, name) in acts_on {
+                if !found.contains(name) {
+                    found.push(name);
+                }
+            }
             if !found.is_empty() {
                 return Err(Error::SceneLoad { load: job.name.clone(), found: found.join(", ") });
             }

@@ -9,17 +9,15 @@
 //! entry in [1, 2): a mode may be of any size. An average loses nothing: its T is a change of variables. Where constraints tie dofs, all
 //! rows follow together.
 
-use std::collections::BTreeMap;
+use faer::{Mat, MatRef};
 
-use faer::Mat;
-
-use super::transformation::{DofOrigin, Transformation};
+use super::transformation::Transformation;
 use super::transformation_row::TransformationRow;
-use crate::dense;
+use crate::dense::{self, NOISE_FACTOR};
 use crate::error::{Error, Result};
 use crate::input::ModeColumns;
 use crate::model::Model;
-use crate::sparse::{absolute_energy, diagonal, product};
+use crate::sparse::{SparseMatrix, absolute_energy, diagonal, product};
 
 /// Expansion modes on the dofs of a partition.
 #[derive(Clone, Debug)]
@@ -37,21 +35,18 @@ pub struct ExpansionFacts {
     pub unit: f64,
     /// |v|ᵀ|M||v|, in this unit: what rounding of the inertia forces is relative to.
     pub terms: f64,
-    /// The share of v that held dofs and rigid patches cannot follow: the root of what is left of Σ M_ii v_i².
+    /// The share of v that held dofs and rigid patches cannot follow: the root of what is left of vᵀMv, or zero below a millionth.
     pub not_followed: f64,
 }
 
 /// Expansion modes on all rows of a model.
 #[derive(Clone, Debug)]
 pub struct RowModes {
-    values: Mat<f64>,
     inertia: Mat<f64>,
     units: Vec<f64>,
     terms: Vec<f64>,
-    /// The diagonal of M.
-    weights: Vec<f64>,
-    /// Whether constraints tie dofs to each other, so that no few rows follow a mode by themselves.
-    are_constrained: bool,
+    /// vᵀMv of each.
+    squares: Vec<f64>,
 }
 
 /// The modes of a file on the rows of a model; those of rows that were dropped, which have no mass, are left out.
@@ -76,20 +71,8 @@ pub fn expansion_modes(model: &Model, modes: &ModeColumns) -> Result<RowModes> {
     if let Some(at) = terms.iter().position(|terms| *terms == 0.0) {
         return Err(Error::ModesNothing { mode: at + 1, found: "no dof with mass that it moves" });
     }
-    let (weights, are_constrained) = (diagonal(&model.mass), model.constraints.is_some());
-    Ok(RowModes { values, inertia, units, terms, weights, are_constrained })
-}
-
-impl RowModes {
-    /// √M_ii of a row.
-    fn root_of_weight(&self, row: usize) -> f64 {
-        self.weights[row].max(0.0).sqrt()
-    }
-
-    /// √M_ii v_i.
-    fn weighted(&self, row: usize, at: usize) -> f64 {
-        self.root_of_weight(row) * self.values[(row, at)]
-    }
+    let squares = dense::dots(values.as_ref(), inertia.as_ref());
+    Ok(RowModes { inertia, units, terms, squares })
 }
 
 impl Expansion {
@@ -103,11 +86,11 @@ impl Expansion {
         self.facts.len()
     }
 
-    /// TᵀMV.
+    /// TᵀMV, with what follows of each mode by TᵀMT.
     ///
     /// # Errors
     /// [`Error::ModesNothing`] where held dofs take all of a mode.
-    pub fn carried(modes: &RowModes, transformation: &Transformation) -> Result<Self> {
+    pub fn carried(modes: &RowModes, (transformation, mass): (&Transformation, &SparseMatrix)) -> Result<Self> {
         let k = modes.units.len();
         let mut inertia = Mat::zeros(transformation.dofs.len(), k);
         for at in 0..k {
@@ -120,7 +103,7 @@ impl Expansion {
                 return Err(Error::ModesNothing { mode: at + 1, found: "all of its inertia on held dofs" });
             }
         }
-        let not_followed = not_followed(modes, transformation);
+        let not_followed = not_followed(modes, (transformation, mass), inertia.as_ref());
         let facts = |at: usize| ExpansionFacts {
             unit: modes.units[at],
             terms: modes.terms[at],
@@ -130,154 +113,59 @@ impl Expansion {
     }
 }
 
-/// The root of min_q Σ M_ii (v − Tq)_i² over Σ M_ii v_i² of each mode. A row of its own dof follows; a held one does not; the rows of a
-/// rigid patch follow its node by least squares.
-fn not_followed(modes: &RowModes, transformation: &Transformation) -> Vec<f64> {
-    let k = modes.units.len();
-    let square = |row: usize, at: usize| modes.weighted(row, at).powi(2);
-    let whole = |at: usize| (0..modes.values.nrows()).map(|row| square(row, at)).sum::<f64>();
-    let share = |(at, lost): (usize, f64)| if lost > 0.0 { (lost / whole(at)).sqrt().min(1.0) } else { 0.0 };
-    if modes.are_constrained {
-        let left = NotFollowed { modes, transformation, diagonal: diagonal_of(modes, transformation) };
-        return (0..k).map(|at| share((at, left.least(at, whole(at))))).collect();
-    }
-    let mut lost = vec![0.0; k];
-    let mut patches: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (row, of_row) in transformation.rows.iter().enumerate() {
-        match of_row {
-            TransformationRow::Dof(_) => {}
-            TransformationRow::Held => (0..k).for_each(|at| lost[at] += square(row, at)),
-            TransformationRow::Tied(entries) => {
-                let node = entries.iter().find_map(|(dof, _)| match transformation.dofs[*dof as usize].origin {
-                    DofOrigin::PatchNode(node, _) | DofOrigin::Distortion(node, _) => Some(node),
-                    DofOrigin::Row(_) => None,
-                });
-                match node {
-                    Some(node) => patches.entry(node).or_default().push(row),
-                    None => (0..k).for_each(|at| lost[at] += square(row, at)),
-                }
-            }
-        }
-    }
-    // A patch with dofs for what deviates from its mean motion loses no motion.
-    for dof in &transformation.dofs {
-        if let DofOrigin::Distortion(node, _) = dof.origin {
-            patches.remove(&node);
-        }
-    }
-    for rows in patches.values() {
-        lost.iter_mut().zip(lost_by_patch(modes, transformation, rows)).for_each(|(lost, of_patch)| *lost += of_patch);
-    }
-    lost.into_iter().enumerate().map(share).collect()
-}
-
-/// min_q Σ M_ii (v − Tq)_i² of each mode on the rows of a rigid patch.
-fn lost_by_patch(modes: &RowModes, transformation: &Transformation, rows: &[usize]) -> Vec<f64> {
-    let k = modes.units.len();
-    let mut dofs: Vec<u32> =
-        rows.iter().flat_map(|row| transformation.rows[*row].entries().map(|(dof, _)| dof)).collect();
-    dofs.sort_unstable();
-    dofs.dedup();
-    // As many rows as columns at least, and more of nothing change no least squares.
-    let n = rows.len().max(dofs.len());
-    let mut motions = Mat::zeros(n, dofs.len());
-    for (i, row) in rows.iter().enumerate() {
-        for (dof, factor) in transformation.rows[*row].entries() {
-            let j = dofs.binary_search(&dof).unwrap_or_default();
-            motions[(i, j)] = modes.root_of_weight(*row) * factor;
-        }
-    }
-    let mut left = Mat::from_fn(n, k, |i, at| rows.get(i).map_or(0.0, |row| modes.weighted(*row, at)));
-    let followed = dense::least_squares(motions.as_ref(), left.as_ref());
-    dense::add_product(left.as_mut(), -1.0, motions.as_ref(), followed.as_ref());
-    (0..k).map(|at| dense::norm(dense::column(left.as_ref(), at)).powi(2)).collect()
-}
-
-/// Steps of conjugate gradients: T is the identity but for rows of few entries, so that tens are enough; stopped early, the share is a
-/// bound from above.
+/// Steps of conjugate gradients: the mass of meshes is near its diagonal, so that tens are enough; stopped early, the share is a bound from
+/// above.
 const STEPS: usize = 200;
-/// Share of what is left, squared, by which a further step could make it smaller, below which none is taken.
-const SETTLED: f64 = 1e-12;
-/// Share of a mode, squared, that is rounding.
-const ROUNDING: f64 = 1e-24;
+/// Share of vᵀMv, in the norm of the diagonal, of a residual that further steps would follow.
+const SETTLED: f64 = 1e-15;
+/// Share of vᵀMv that is not told from nothing.
+const NOTHING: f64 = 1e-12;
 
-/// The diagonal of TᵀWT with W the diagonal of M.
-fn diagonal_of(modes: &RowModes, transformation: &Transformation) -> Vec<f64> {
-    let mut diagonal = vec![0.0; transformation.dofs.len()];
-    for (row, of_row) in transformation.rows.iter().enumerate() {
-        let weight = modes.weights[row].max(0.0);
-        of_row.entries().for_each(|(dof, factor)| diagonal[dof as usize] += weight * factor * factor);
+/// The root of min_q (v − Tq)ᵀM(v − Tq) over vᵀMv of each mode.
+fn not_followed(
+    modes: &RowModes,
+    (transformation, mass): (&Transformation, &SparseMatrix),
+    inertia: MatRef<'_, f64>,
+) -> Vec<f64> {
+    let k = modes.units.len();
+    if transformation.rows.iter().all(|row| matches!(row, TransformationRow::Dof(_))) {
+        return vec![0.0; k];
     }
-    diagonal
+    let diagonal = diagonal(mass);
+    let share = |at: usize| {
+        let whole = modes.squares[at];
+        let left = whole - followed((mass, &diagonal), dense::column(inertia, at), whole);
+        let rounding = (NOTHING * whole).max(NOISE_FACTOR * f64::EPSILON * modes.terms[at]);
+        if left > rounding { (left / whole).sqrt() } else { 0.0 }
+    };
+    (0..k).map(share).collect()
 }
 
-/// What a motion of the dofs leaves of a mode where constraints tie dofs to each other.
-struct NotFollowed<'a> {
-    modes: &'a RowModes,
-    transformation: &'a Transformation,
-    diagonal: Vec<f64>,
-}
-
-impl NotFollowed<'_> {
-    /// min_q Σ M_ii (v − Tq)_i² by conjugate gradients on TᵀWT q = TᵀWv, from the motion that has the values of v.
-    fn least(&self, at: usize, whole: f64) -> f64 {
-        let mut left = self.after_own_values(at);
-        let mut size = self.size(&left);
-        let (mut direction, mut slope) = (Vec::new(), 0.0);
-        for _ in 0..STEPS {
-            let force = self.pulled_back(&left);
-            let step: Vec<f64> =
-                force.iter().zip(&self.diagonal).map(|(f, d)| if *d > 0.0 { f / d } else { 0.0 }).collect();
-            let next = dense::dot(&force, &step);
-            if next <= SETTLED * size || size <= ROUNDING * whole {
-                break;
-            }
-            direction = match slope > 0.0 {
-                true => step
-                    .iter()
-                    .zip(&direction)
-                    .map(|(step, before): (&f64, &f64)| step + next / slope * before)
-                    .collect(),
-                false => step,
-            };
-            slope = next;
-            let moved: Vec<f64> = self.moved(&direction);
-            let length = slope / self.size(&moved);
-            left.iter_mut().zip(&moved).for_each(|(left, moved)| *left -= length * moved);
-            size = self.size(&left);
+/// max_q 2qᵀf − qᵀMq by conjugate gradients, each step of which adds to it: of a mode with vᵀMv what the dofs follow that it loads with
+/// f = TᵀMv, M theirs.
+fn followed((mass, diagonal): (&SparseMatrix, &[f64]), inertia: &[f64], whole: f64) -> f64 {
+    let n = inertia.len();
+    let mut left = inertia.to_vec();
+    let (mut direction, mut slope, mut followed) = (Mat::zeros(n, 1), 0.0, 0.0);
+    for _ in 0..STEPS {
+        let step: Vec<f64> = left.iter().zip(diagonal).map(|(f, d)| if *d > 0.0 { f / d } else { 0.0 }).collect();
+        let next = dense::dot(&left, &step);
+        if next <= SETTLED * whole {
+            break;
         }
-        size
-    }
-
-    /// v − Tq with the values of v for those dofs that are rows of the model.
-    fn after_own_values(&self, at: usize) -> Vec<f64> {
-        let own = |origin: DofOrigin| match origin {
-            DofOrigin::Row(row) => self.modes.values[(row, at)],
-            DofOrigin::PatchNode(..) | DofOrigin::Distortion(..) => 0.0,
-        };
-        let q: Vec<f64> = self.transformation.dofs.iter().map(|dof| own(dof.origin)).collect();
-        let values = dense::column(self.modes.values.as_ref(), at);
-        values.iter().zip(self.moved(&q)).map(|(value, moved)| value - moved).collect()
-    }
-
-    /// T q.
-    fn moved(&self, q: &[f64]) -> Vec<f64> {
-        let of_row = |row: &TransformationRow| row.entries().map(|(dof, factor)| factor * q[dof as usize]).sum();
-        self.transformation.rows.iter().map(of_row).collect()
-    }
-
-    /// TᵀW x.
-    fn pulled_back(&self, x: &[f64]) -> Vec<f64> {
-        let mut force = vec![0.0; self.transformation.dofs.len()];
-        for (row, of_row) in self.transformation.rows.iter().enumerate() {
-            let weighted = self.modes.weights[row].max(0.0) * x[row];
-            of_row.entries().for_each(|(dof, factor)| force[dof as usize] += factor * weighted);
+        let turn = if slope > 0.0 { next / slope } else { 0.0 };
+        let along = dense::column_mut(direction.as_mut(), 0);
+        along.iter_mut().zip(&step).for_each(|(along, step)| *along = step + turn * *along);
+        slope = next;
+        let image = product(mass, direction.as_ref());
+        let size = dense::dot(dense::column(direction.as_ref(), 0), dense::column(image.as_ref(), 0));
+        // A mass that is not definite has no nearest motion.
+        if size <= 0.0 {
+            break;
         }
-        force
+        let length = slope / size;
+        dense::add_scaled(&mut left, -length, dense::column(image.as_ref(), 0));
+        followed += length * slope;
     }
-
-    /// xᵀWx.
-    fn size(&self, x: &[f64]) -> f64 {
-        x.iter().zip(&self.modes.weights).map(|(x, weight)| weight.max(0.0) * x * x).sum()
-    }
+    followed
 }

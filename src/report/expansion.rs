@@ -29,6 +29,6 @@ pub struct ExpansionRow {
     /// Whether it is a coordinate; others span it otherwise.
     #[serde(rename = "kept")]
     pub is_kept: bool,
-    /// The share of it, in the diagonal of the mass, that held dofs and rigid patches cannot follow.
+    /// The share of it, in the mass, that held dofs and rigid patches cannot follow.
     pub not_followed: f64,
 }

@@ -1,7 +1,7 @@
 //! A second look at an interface where K_II has a factor that may be one of rounding.
 
 use super::of_partition::counted_by_matrices;
-use super::rank::{InterfaceRank, RANK_TOLERANCE, rank_within};
+use super::rank::{InterfaceRank, rank_of_every, rank_within};
 use super::rigid_body_modes::RigidBodyModes;
 use crate::eigen::{Factored, ModeRequest, Wanted, elastic_modes};
 use crate::error::Result;
@@ -38,7 +38,7 @@ pub fn confirmed_rank(
             let rank = rank_within(partition, rigid, rigid.energy.angle)?;
             match counted_by_matrices(partition, rigid.clone()) {
                 Ok((every, n_factorisations)) => {
-                    rank_within(partition, &every, rigid.energy.angle.max(RANK_TOLERANCE))?;
+                    rank_of_every(partition, (rigid, &every))?;
                     Ok((rank, n_factorisations))
                 }
                 // What the digits do not let be counted is no lack of this interface.

@@ -36,7 +36,7 @@ pub(crate) use geometric::{moving_directions, settled};
 pub use of_partition::{counted_by_matrices, from_coordinates, rigid_body_modes};
 pub use passing::with_passing;
 pub(crate) use passing::{n_moving_less, n_passing, passing_motions, that_pass};
-pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank, or_lack_of_rank};
+pub use rank::{ILL_CONDITIONED, InterfaceRank, interface_rank, or_lack_of_rank, rank_of_every};
 pub(crate) use rank::{scales, unit_motions};
 pub(crate) use residual::FORCE_ASKED;
 pub use rigid_body_modes::{RigidBodyModes, RigidEnergy, RigidSource};

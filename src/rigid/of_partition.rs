@@ -29,12 +29,12 @@ pub fn rigid_body_modes(partition: &Partition) -> Result<(RigidBodyModes, usize)
 }
 
 /// The motions without energy by the matrices, where there are more than coordinates tell: mechanisms are among them. Modes that come from
-/// the matrices have all of them. With it the factorisations that it took.
+/// the matrices have all of them, and so have those that were counted. With it the factorisations that it took.
 ///
 /// # Errors
 /// The errors of [`from_matrices`].
 pub fn counted_by_matrices(partition: &Partition, rigid: RigidBodyModes) -> Result<(RigidBodyModes, usize)> {
-    if partition.sites().is_none() {
+    if partition.sites().is_none() || rigid.n_mechanisms > 0 {
         return Ok((rigid, 0));
     }
     let (every, n_factorisations) = from_matrices(partition)?;

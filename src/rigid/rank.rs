@@ -14,7 +14,7 @@ use crate::partition::{DofOrigin, Partition};
 use crate::sparse::diagonal;
 
 /// Below this ratio of singular values the interface does not react a motion.
-pub(super) const RANK_TOLERANCE: f64 = 1e-10;
+const RANK_TOLERANCE: f64 = 1e-10;
 /// Below this ratio the interface reacts it badly: digits are lost in K_II, and the report warns.
 pub const ILL_CONDITIONED: f64 = 1e-2;
 
@@ -32,6 +32,18 @@ pub struct InterfaceRank {
 /// A rigid-body motion leaves the interface at rest; the message names it.
 pub fn interface_rank(partition: &Partition, rigid: &RigidBodyModes) -> Result<InterfaceRank> {
     rank_within(partition, rigid, RANK_TOLERANCE)
+}
+
+/// The rank of all motions without energy as the matrices tell them, mechanisms among them, which rounding turns as the digits of K turn
+/// rigid-body motions.
+///
+/// # Errors
+/// A motion leaves the interface at rest; the message names it.
+pub fn rank_of_every(
+    partition: &Partition,
+    (rigid, every): (&RigidBodyModes, &RigidBodyModes),
+) -> Result<InterfaceRank> {
+    rank_within(partition, every, rigid.energy.angle.max(RANK_TOLERANCE))
 }
 
 /// Why K_II could not be factored: the interface, where it reacts a motion so badly that few digits leave nothing of that in

@@ -28,7 +28,7 @@ pub(crate) const GROUNDED: f64 = 1e-4;
 /// cannot be told from an elastic one.
 const LARGEST_ENERGY: f64 = 1e-2;
 /// What rounding that the digits of K explain may excuse at all: a quarter of the first elastic frequency.
-const LARGEST_EXPLAINED_ENERGY: f64 = 1.0 / 16.0;
+pub(crate) const LARGEST_EXPLAINED_ENERGY: f64 = 1.0 / 16.0;
 /// Relative force of a rigid-body motion at which the component is held.
 const HELD: f64 = 1e-6;
 /// Defect of a rigid-body motion that the interface carries, relative to its largest displacement, at which it is not carried: of the basis

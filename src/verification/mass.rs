@@ -158,7 +158,8 @@ pub(crate) fn of_parts(partition: &Partition) -> Option<Check> {
 
 /// Whether all of the mass is there that the model had: nothing held it before it was read.
 fn is_whole(weight: &Weight) -> bool {
-    weight.has_whole_nodes && weight.supports == Supports::None
+    let has_mass = weight.translations.iter().all(|mass| *mass > 0.0);
+    has_mass && weight.has_whole_nodes && weight.supports == Supports::None
 }
 
 /// M-16 against what the job expects.

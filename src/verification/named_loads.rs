@@ -3,8 +3,10 @@
 use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::Evidence;
 use super::loads::{reduced_deflections, root_of_energy};
-use crate::basis::ANSWERED;
+use crate::basis::{ANSWERED, DynamicCoordinate};
 use crate::dense;
+use crate::eigen::rows_with_mass;
+use crate::partition::LoadFacts;
 use crate::sparse::product;
 
 /// What the basis lacks of the static answer to each load of the job, its interface held: ‖u − Ψ_D η‖_K / ‖u‖_K, zero for a load that acts
@@ -20,6 +22,23 @@ pub(super) fn lacking(evidence: &Evidence<'_>) -> Option<Vec<f64>> {
         if missed == 0.0 { 0.0 } else { missed / root_of_energy(full.as_ref(), loads, load) }
     };
     Some((0..full.ncols()).map(share).collect())
+}
+
+/// What to say of a load whose residual vector adds nothing with mass to the other columns: no mass of a superelement has coordinates without.
+fn remaining_mass(evidence: &Evidence<'_>, load: &LoadFacts) -> &'static str {
+    let basis = evidence.basis;
+    let of_load = |coordinate: DynamicCoordinate| match coordinate {
+        DynamicCoordinate::ResidualVector(index) => std::ptr::eq(&evidence.partition.loads.facts[index], load),
+        _ => false,
+    };
+    let is_left_out = basis.dropped.iter().any(|column| of_load(column.coordinate));
+    match is_left_out && basis.n_dynamic() == rows_with_mass(evidence.partition.internal().mass) {
+        true => {
+            ": the modes span all that has mass, and no coordinate is left for an answer without; add its node to the interface, or set \
+             residual = false"
+        }
+        false => "",
+    }
 }
 
 /// M-27: the load with a residual vector that is answered worst, which is judged, and the one without, which is shown.
@@ -40,7 +59,7 @@ pub(super) fn checks(evidence: &Evidence<'_>, lacking: Option<&[f64]>, condition
             value: *worst.1,
             limits,
             fail_above,
-            worst: Some(worst.0.name.clone()),
+            worst: Some(worst.0.name.clone() + remaining_mass(evidence, worst.0)),
         })
     };
     let judged = of_kind(true, "static answer to loads with residual vectors", (exact, exact.value().max(FAIL)));

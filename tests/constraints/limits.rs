@@ -11,7 +11,7 @@ use supel_models::{Inertia, Material, Model, Section, frame};
 use supel_testing::place::{Place, assert_close, frequencies_hz, supel};
 
 use crate::model::{labels_at, tied_halves};
-use crate::{Case, Rows, eigenvalues};
+use crate::{Case, Rows, eigenvalues, null_space, unpacked};
 
 const HERTING: &str = r#"method = "herting", modes = { count = 6 }"#;
 /// Modes that are compared.
@@ -164,31 +164,72 @@ fn scales_of_constraints_do_not_matter() {
     }
 }
 
+/// Two arms, of six nodes and of seven, with a ball joint between them.
+fn arms(random: &mut SplitMix64) -> Case {
+    let mut arm = |n: usize, from: [f64; 3], side: f64| {
+        let mut at = from;
+        let step = |at: [f64; 3], by: [f64; 3]| [at[0] + 0.1 + by[0], at[1] + side * by[1], at[2] + by[2]];
+        let mut nodes = vec![at];
+        for _ in 1..n {
+            at = step(at, [0; 3].map(|_| 0.1 * random.normal()));
+            nodes.push(at);
+        }
+        nodes
+    };
+    let first = arm(6, [0.0; 3], 1.0);
+    let second = arm(7, first[5], -1.0);
+    let section = Section { area: 3e-4, second_moment_y: 2e-8, second_moment_z: 5e-8, torsion: 6e-8 };
+    let beams = |nodes: &[[f64; 3]]| {
+        let edges: Vec<[usize; 2]> = (1..nodes.len()).map(|i| [i - 1, i]).collect();
+        frame(nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent)
+    };
+    let joint = (0..3).map(|axis| vec![(30 + axis, 1.0), (36 + axis, -1.0)]).collect();
+    Case::new(join(&beams(&first), &beams(&second), &[]), joint)
+}
+
+/// An arm that hangs on another one swings while the interface, on the other one, is at rest. Rubin's static modes do without constraint modes,
+/// which need an interface that holds all of it.
+#[test]
+fn rubin_beside_an_arm_that_the_interface_leaves_free() {
+    let mut random = SplitMix64::new(7);
+    for (round, fixed) in [(0, ""), (1, ""), (2, "fixed = [{ nodes = [1] }]")] {
+        let case = arms(&mut random);
+        let run = |method: &str| {
+            let reduction = format!("method = \"{method}\", modes = {{ count = 5 }}");
+            case.run(r#", mechanisms = "accept""#, r#"{ name = "a", nodes = [2, 4] }"#, &reduction, fixed)
+        };
+        let refused = run("herting").expect(ExitCode::ModelPhysics).err;
+        assert!(refused.contains("E-NOT-DEFINITE") || refused.contains("E-INTERFACE-RANK"), "{refused}");
+        run("rubin").expect(ExitCode::Done);
+        let (file, job) = (case.place.text("x.supel"), case.place.text("job.toml"));
+        supel(&["verify", &file, "--strict"]).expect(ExitCode::Done);
+        supel(&["verify", &file, "--job", &job, "--strict"]).expect(ExitCode::Done);
+        let superelement = case.place.superelement("x.supel");
+        let is_free = |row: usize| fixed.is_empty() || row >= 6;
+        let free: Vec<usize> = (0..case.model.n).filter(|row| is_free(*row)).collect();
+        let among = |a: Mat<f64>| Mat::from_fn(free.len(), free.len(), |i, j| a[(free[i], free[j])]);
+        let (k, m) = (among(case.stiffness()), among(case.mass()));
+        let g = case.g();
+        let z = null_space(&Mat::from_fn(g.nrows(), free.len(), |i, j| g[(i, free[j])]));
+        let lambda = eigenvalues([&k, &m], &z);
+        let n_zero = if fixed.is_empty() { 9 } else { 3 };
+        assert_eq!(superelement.tensors().rigid_body_modes.cols(), n_zero, "{round}");
+        // The dense spectrum is rounded to ε of its largest, 10⁸ times the softest.
+        assert_close(&frequencies_hz(&superelement), &hertz(&lambda[n_zero..n_zero + 5]), 1e-7);
+        let [reduced_k, reduced_m] = [&superelement.tensors().stiffness, &superelement.tensors().mass].map(unpacked);
+        let whole = Mat::<f64>::identity(reduced_k.nrows(), reduced_k.nrows());
+        let of_reduced = eigenvalues([&reduced_k, &reduced_m], &whole);
+        assert_close(&hertz(&of_reduced[n_zero..n_zero + 5]), &hertz(&lambda[n_zero..n_zero + 5]), 1e-7);
+    }
+}
+
 /// A clamped arm with another one hinged to its tip: the inertia relief of the mechanism answers with the soft arm, next to which its answers in
 /// the other one are small, and what deforms in its motions by rounding answers likewise.
 #[test]
 fn the_inertia_relief_of_arms_on_a_hinge_agrees() {
     let mut random = SplitMix64::new(7);
     for round in 0..10 {
-        let mut arm = |n: usize, from: [f64; 3], side: f64| {
-            let mut at = from;
-            let step = |at: [f64; 3], by: [f64; 3]| [at[0] + 0.1 + by[0], at[1] + side * by[1], at[2] + by[2]];
-            let mut nodes = vec![at];
-            for _ in 1..n {
-                at = step(at, [0; 3].map(|_| 0.1 * random.normal()));
-                nodes.push(at);
-            }
-            nodes
-        };
-        let first = arm(6, [0.0; 3], 1.0);
-        let second = arm(7, first[5], -1.0);
-        let section = Section { area: 3e-4, second_moment_y: 2e-8, second_moment_z: 5e-8, torsion: 6e-8 };
-        let beams = |nodes: &[[f64; 3]]| {
-            let edges: Vec<[usize; 2]> = (1..nodes.len()).map(|i| [i - 1, i]).collect();
-            frame(nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent)
-        };
-        let hinge = (0..3).map(|axis| vec![(30 + axis, 1.0), (36 + axis, -1.0)]).collect();
-        let case = Case::new(join(&beams(&first), &beams(&second), &[]), hinge);
+        let case = arms(&mut random);
         for method in ["herting", "rubin"] {
             let ends = r#"{ name = "a", nodes = [9, 10] }, { name = "b", nodes = [13, 6] }"#;
             let reduction = format!("method = \"{method}\", modes = {{ count = 3 }}");

@@ -333,14 +333,12 @@ fn modes_of_a_file_follow() {
         .iter()
         .map(|mode| mode["not_followed"].as_f64().expect("a share"))
         .collect();
-    // min Σ M_ii (v − Zy)_i² by dense least squares.
+    // min (v − Zy)ᵀM(v − Zy) by dense algebra.
     let mass = case.mass();
-    let root = |i: usize| mass[(i, i)].sqrt();
-    let a = Mat::from_fn(n, z.ncols(), |i, j| root(i) * z[(i, j)]);
-    let b = Mat::from_fn(n, 1, |i, _| root(i) * any[(i, 0)]);
-    let gram = (a.transpose() * &a).llt(faer::Side::Lower).expect("definite");
-    let y = faer::linalg::solvers::Solve::solve(&gram, a.transpose() * &b);
-    let left = &b - &a * &y;
-    let expected = left.norm_l2() / b.norm_l2();
-    assert!(shares[0] < 1e-10 && (shares[1] / expected - 1.0).abs() < 1e-5, "{shares:?}, {expected}");
+    let projected = (z.transpose() * &mass * &z).llt(faer::Side::Lower).expect("definite");
+    let y = faer::linalg::solvers::Solve::solve(&projected, z.transpose() * &mass * &any);
+    let left = &any - &z * &y;
+    let square = |x: &Mat<f64>| (x.transpose() * &mass * x)[(0, 0)];
+    let expected = (square(&left) / square(&any)).sqrt();
+    assert!(shares[0] == 0.0 && (shares[1] / expected - 1.0).abs() < 1e-12, "{shares:?}, {expected}");
 }

@@ -2,7 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::transform::rounded;
-use supel_models::{Inertia, Material, Model, Section, frame};
+use supel_models::{Inertia, Material, Model, Section, brick, frame};
 use supel_testing::cases::hinged;
 use supel_testing::place::{Place, assert_close, frequencies_hz, supel};
 
@@ -209,5 +209,31 @@ fn rotations_that_are_held_with_a_translation_are_known_again() {
             reduced(&place, ("", &format!("{interface}{method}scene = {{ {scene} }}\n")));
             assert_same_again(&place, n_rigid, scene);
         }
+    }
+}
+
+/// A block whose face is one node, of which the scene holds a rotation, and one that the face leaves a hinge: what is left of its mass is no whole
+/// body's, and is none to be judged as one. A node beside it that feels what is held is not turned.
+#[test]
+fn the_mass_of_a_face_that_a_scene_holds_is_not_judged() {
+    let block = brick([4, 2, 2], [0.3, 0.05, 0.04], &Material::STEEL_SI);
+    let end = &block.groups["XMIN"];
+    let line: Vec<i64> =
+        block.groups["XMAX"].iter().copied().filter(|label| block.nodes[*label as usize - 1][1] == 0.0).collect();
+    let face = format!("{{ name = \"i\", nodes = {end:?}, coupling = \"rigid\" }}");
+    let both = format!("{face}, {{ name = \"j\", nodes = {line:?} }}");
+    for (interface, grounded, n_rigid) in [
+        (&face, "\"i.rz\"", 5),
+        (&face, "\"i.ry\"", 5),
+        (&face, "\"i.ux\", \"i.uy\", \"i.uz\", \"i.rx\", \"i.ry\"", 1),
+        (&both, "\"i.uy\"", 5),
+    ] {
+        let place = Place::with(&block);
+        let reduction = "reduction = { method = \"craig-bampton\", modes = { count = 4 } }";
+        reduced(
+            &place,
+            ("", &format!("interface = [{interface}]\n{reduction}\nscene = {{ grounded = [{grounded}] }}\n")),
+        );
+        assert_same_again(&place, n_rigid, grounded);
     }
 }

@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 use supel::cli::ExitCode;
+use supel_models::model::Assembler;
+use supel_models::{Inertia, Material, Model, Section, frame};
 use supel_runtime::Coordinate;
 use supel_testing::place::{steel_brick, supel};
 
@@ -107,4 +109,25 @@ fn rubins_matrices_leave_residual_vectors_out() {
         let worst = found.iter().zip(&expected).fold(0.0f64, |worst, (a, b)| worst.max((a - b).abs()));
         assert!(worst <= 1e-9 * size, "{matrix}: {worst:e} of {size:e}");
     }
+}
+
+/// Modes that span all that has mass leave no coordinate for what a load does to the rest, which is said where its answer is missed.
+#[test]
+fn an_answer_without_mass_has_no_coordinate() {
+    let nodes = [[0.0; 3], [0.1, 0.0, 0.0], [0.2, 0.0, 0.0], [0.3, 0.0, 0.05], [0.4, 0.0, 0.05]];
+    let edges = [[0, 1], [1, 2], [2, 3], [3, 4]];
+    let shaft = frame(&nodes, &edges, &Section::round(0.01), &Material::STEEL_SI, Inertia::Consistent);
+    // Mass at both ends alone.
+    let mut mass = Assembler::default();
+    (0..6).for_each(|row| mass.add(row, row, if row < 3 { 1.0 } else { 1e-3 }));
+    (24..27).for_each(|row| mass.add(row, row, 2.0));
+    let model = Model { mass: mass.finish(), ..shaft };
+    let loads = r#"{ name = "F", nodes = [3], force = [0.0, 0.0, 1.0] }"#;
+    let case = Case { name: "massless", model, interface: r#"{ name = "foot", nodes = [1] }"#, fixed: "", loads };
+    let (_, ended) = case.run("craig-bampton", 2);
+    ended.expect(ExitCode::Done);
+    let (_, ended) = case.run("craig-bampton", 3);
+    let text = ended.expect(ExitCode::CheckFailed).out;
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("F: the modes span all that has mass"), "{text}");
 }

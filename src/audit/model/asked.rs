@@ -151,7 +151,7 @@ impl AskedModes {
         let groups = clusters(&modes, sigma);
         let angles = angles(&modes, sigma, (&lacking, &groups));
         let turns_inside = turns_inside(&modes, (&lacking, &groups));
-        let residual_bars = residual_bars(&modes, sigma, (&lacking, &groups));
+        let residual_bars = residual_bars(&modes, sigma, (&with_products(&lacking, &modes, sigma), &groups));
         let boundary = Boundary::FixedInterface;
         let of_digits = if partition.has_few_digits() { partition.precision.stiffness.share } else { 0.0 };
         Ok(Self {
@@ -330,6 +330,14 @@ fn turns_inside(modes: &Modes, (lacking, groups): (&[f64], &[Range<usize>])) -> 
         (lacking[j] / nearest).min(1.0)
     };
     groups.iter().flat_map(|group| group.clone().map(|j| of_mode(group, j))).collect()
+}
+
+/// δ of each mode with what rounding of products leaves of it in a reduction: an eigensolver takes a pair at 16 ε of the largest terms and of
+/// the largest θ.
+fn with_products(lacking: &[f64], modes: &Modes, sigma: f64) -> Vec<f64> {
+    let floor = RESIDUAL_FLOOR * f64::EPSILON * modes.largest_cancellation();
+    let of_products = |lambda: &f64| floor * (lambda - sigma) / (modes.lambda[0] - sigma);
+    lacking.iter().zip(&modes.lambda).map(|(lacking, lambda)| lacking.max(of_products(lambda))).collect()
 }
 
 /// What a residual leaves of λ in doubt: by Kato and Temple Σδ²/γ of a cluster, δ at most (see the error bars of the modes).

@@ -8,7 +8,7 @@ use crate::eigen::NOTICED_BAR;
 use crate::modes::Component;
 use crate::number::{quantity, scientific};
 use crate::verification::check::{Check, Limits};
-use crate::verification::limits::{self, Known, UNKNOWN};
+use crate::verification::limits::{self, Known, LARGEST_EXPLAINED_ENERGY, UNKNOWN};
 
 /// Relative difference of a frequency that digits excuse without a warning, and at all.
 const WITHIN_DIGITS: [f64; 2] = [1e-3, 1e-2];
@@ -133,11 +133,13 @@ impl Subject<'_> {
         let stated = |claim: usize| self.claims.lambda.as_ref().map_or(self.measured.lambda[claim], |all| all[claim]);
         let of_pair = |claim: usize| {
             let data = of_digits_in_energy(self.measured, claim, first);
+            // What digits explain is no failure up to where they may explain the energy of K itself: it warns.
+            let excused = data.min(LARGEST_EXPLAINED_ENERGY);
             let limits = Limits { engineering: RIGID_ENERGY, arithmetic: 0.0, data }.capped(0.0, MOST_OF_DIGITS);
             // Where nothing is stated, the energy of a rounded shape is that of its rounding.
             let is_unsaid = self.claims.lambda.is_none() && self.judged.is_rounded[claim];
             let value = if is_unsaid { 0.0 } else { stated(claim).abs() / first };
-            OfPair { claim, value, limits, fail_above: NOT_RIGID.max(limits.data) }
+            OfPair { claim, value, limits, fail_above: NOT_RIGID.max(excused) }
         };
         let found = OfPair::worst(rigid.into_iter().map(of_pair))?;
         Some(Check {

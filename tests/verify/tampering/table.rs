@@ -129,7 +129,8 @@ impl Known {
         let modes = modes.map(|modes| expansion_modes(&model, &modes).expect("modes"));
         let mut partition = Partition::new(model, &job.interfaces).expect("interfaces");
         if let Some(modes) = modes {
-            partition.expansion = Expansion::carried(&modes, &partition.transformation).expect("modes that move");
+            partition.expansion =
+                Expansion::carried(&modes, (&partition.transformation, &partition.mass)).expect("modes that move");
         }
         job.reduction.held.iter().for_each(|held| partition.hold_for_modes(held).expect("interfaces"));
         partition.loads = Loads::carried(row_loads, &partition.transformation).expect("dofs that move");
