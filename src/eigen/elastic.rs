@@ -125,7 +125,7 @@ pub(crate) fn settled_at(precision: Precision) -> f64 {
 pub(crate) fn are_left_inexact(problem: ModalProblem<'_>, modes: &Modes) -> bool {
     let of_largest = RESIDUAL_FLOOR * f64::EPSILON * modes.spread();
     let taken_at = TOLERANCE.max(of_largest).max(problem.precision.share());
-    let is_open = |error: &ModeError| error.residual_bar > SETTLED_BAR.max(error.data_bar);
+    let is_open = |error: &ModeError| error.residual_bar > TOLERANCE.max(error.data_bar);
     modes.largest_backward() > taken_at || modes.errors.iter().any(is_open)
 }
 

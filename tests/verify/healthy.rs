@@ -493,12 +493,18 @@ fn static_answers_of_an_interface_nearly_in_line() {
 #[test]
 fn plates_with_soft_drilling_stiffness() {
     // Unit vectors along a plate and across it.
-    let turned = [[0.48, 0.6, 0.64], [0.8, -0.6, 0.0]];
+    let turned = [[0.48, 0.6, 0.64], [0.788_5, -0.614_7, -0.015_1]];
     let flat = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     for (cells, width, thickness, drilling, [along, across]) in [
         ([3, 2], 0.06, 0.009, 1e-5, turned),
         ([3, 4], 0.15, 0.02, 1e-4, flat),
         ([3, 4], 0.28, 0.03, 1e-5, turned),
+        ([3, 4], 0.05, 0.02, 3e-4, turned),
+        ([3, 4], 0.06, 0.02, 2e-4, turned),
+        ([3, 2], 0.06, 0.03, 2e-5, turned),
+        ([3, 2], 0.1, 0.02, 2e-5, turned),
+        ([3, 3], 0.06, 0.009, 2e-5, turned),
+        ([3, 4], 0.17, 0.02, 5e-5, turned),
         ([3, 3], 0.22, 0.01, 2e-5, flat),
         ([3, 3], 0.09, 0.01, 4e-5, flat),
         ([3, 4], 0.05, 0.01, 2e-5, flat),
