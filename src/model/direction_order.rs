@@ -66,7 +66,7 @@ impl Blocks {
     fn of(matrix: &SparseMatrix, dofs: &[Option<Dof>]) -> Self {
         let node_of = node_of_row(matrix.rows(), Some(dofs));
         let n_nodes = node_of.iter().max().map_or(0, |max| *max as usize + 1);
-        let direction: Vec<Option<usize>> = dofs.iter().map(|dof| dof.map(|dof| place(dof.direction))).collect();
+        let direction: Vec<Option<usize>> = dofs.iter().map(|dof| dof.map(|dof| dof.direction as usize)).collect();
         let mut rows = vec![[None; N]; n_nodes];
         for (row, direction) in direction.iter().enumerate() {
             if let Some(direction) = direction {
@@ -77,8 +77,8 @@ impl Blocks {
             let mut found: Vec<(u32, u64)> = Vec::new();
             for (i, row) in own.iter().enumerate().filter_map(|(i, row)| row.map(|row| (i, row))) {
                 let entries = matrix.outer_view(row);
-                for (col, value) in entries.iter().flat_map(|row| row.iter()).filter(|(_, value)| **value != 0.0) {
-                    let Some(j) = direction[col].filter(|_| *value != 0.0) else { continue };
+                for (col, _) in entries.iter().flat_map(|row| row.iter()).filter(|(_, value)| **value != 0.0) {
+                    let Some(j) = direction[col] else { continue };
                     let bit = 1 << (N * i + j);
                     // The columns of a node mostly follow each other.
                     match found.last_mut() {
@@ -175,8 +175,4 @@ impl Seen {
 fn bits(rows: u8, columns: u8) -> u64 {
     let of_row = u64::from(columns & 0b11_1111);
     (0..N).filter(|row| rows >> row & 1 == 1).fold(0, |bits, row| bits | of_row << (N * row))
-}
-
-fn place(direction: crate::dofs::Direction) -> usize {
-    direction.axis() + if direction.is_rotation() { N / 2 } else { 0 }
 }

@@ -200,17 +200,16 @@ impl<'a> Search<'a> {
         let problem = self.problem.modal();
         let solve = |operator: &dyn ShiftInvert| elastic_modes(problem, operator, request);
         // The factor of K_II serves two purposes; one of K − σM is made for this one.
-        let below = || {
-            let (modes, n_factorisations) = self.problem.with_operator_below(solve)?;
-            Ok(modes.after(EigenWork { factorisations: n_factorisations, ..EigenWork::default() }))
-        };
+        let counted =
+            |(modes, factorisations): (Modes, usize)| modes.after(EigenWork { factorisations, ..EigenWork::default() });
+        let below = || self.problem.with_operator_below(solve).map(counted);
         let is_held = self.problem.boundary == Boundary::FixedInterface;
         let (modes, n_factorisations) = match self.problem.with_lowest_operator(solve) {
             Err(Error::LanczosStalled { .. }) if !is_held => return below(),
             found => found?,
         };
         if is_held || n_factorisations > 0 || !are_left_inexact(problem, &modes) {
-            return Ok(modes.after(EigenWork { factorisations: n_factorisations, ..EigenWork::default() }));
+            return Ok(counted((modes, n_factorisations)));
         }
         // A motion that is local to a node of the interface turns the whole component about it in the answer of the held one, and rounding
         // of that is left in the mode.

@@ -6,7 +6,6 @@ use super::loads::{reduced_deflections, root_of_energy};
 use crate::basis::{ANSWERED, DynamicCoordinate};
 use crate::dense;
 use crate::eigen::rows_with_mass;
-use crate::partition::LoadFacts;
 use crate::sparse::product;
 
 /// What the basis lacks of the static answer to each load of the job, its interface held: ‖u − Ψ_D η‖_K / ‖u‖_K, zero for a load that acts
@@ -25,13 +24,9 @@ pub(super) fn lacking(evidence: &Evidence<'_>) -> Option<Vec<f64>> {
 }
 
 /// What to say of a load whose residual vector adds nothing with mass to the other columns: no mass of a superelement has coordinates without.
-fn remaining_mass(evidence: &Evidence<'_>, load: &LoadFacts) -> &'static str {
-    let basis = evidence.basis;
-    let of_load = |coordinate: DynamicCoordinate| match coordinate {
-        DynamicCoordinate::ResidualVector(index) => std::ptr::eq(&evidence.partition.loads.facts[index], load),
-        _ => false,
-    };
-    let is_left_out = basis.dropped.iter().any(|column| of_load(column.coordinate));
+fn remaining_mass(evidence: &Evidence<'_>, load: usize) -> &'static str {
+    let (basis, residual_vector) = (evidence.basis, DynamicCoordinate::ResidualVector(load));
+    let is_left_out = basis.dropped.iter().any(|column| column.coordinate == residual_vector);
     match is_left_out && basis.n_dynamic() == rows_with_mass(evidence.partition.internal().mass) {
         true => {
             ": the modes span all that has mass, and no coordinate is left for an answer without; add its node to the interface, or set \
@@ -50,16 +45,17 @@ pub(super) fn checks(evidence: &Evidence<'_>, lacking: Option<&[f64]>, condition
     let exact =
         Limits { engineering: ANSWERED, arithmetic: f64::EPSILON * condition, data: 0.0 }.capped(1e-3, MAX_EXCUSE);
     let of_kind = |has_residual_vector: bool, name: &'static str, (limits, fail_above): (Limits, f64)| {
-        let of_kind = loads.iter().zip(lacking).filter(|(load, _)| load.has_residual_vector == has_residual_vector);
-        let worst = of_kind.reduce(|worst, next| if dense::worse(*next.1, *worst.1) { next } else { worst })?;
+        let of_kind = (0..loads.len()).filter(|load| loads[*load].has_residual_vector == has_residual_vector);
+        let worst =
+            of_kind.reduce(|worst, next| if dense::worse(lacking[next], lacking[worst]) { next } else { worst })?;
         Some(Check {
             id: "M-27",
             name,
             equation: "max ‖u − Ψ_D η‖_K / ‖u‖_K, interface held, u = K_II⁻¹ f_I, η = K̂_ηη⁻¹ Ψ_Dᵀ f_I",
-            value: *worst.1,
+            value: lacking[worst],
             limits,
             fail_above,
-            worst: Some(worst.0.name.clone() + remaining_mass(evidence, worst.0)),
+            worst: Some(loads[worst].name.clone() + remaining_mass(evidence, worst)),
         })
     };
     let judged = of_kind(true, "static answer to loads with residual vectors", (exact, exact.value().max(FAIL)));

@@ -212,8 +212,8 @@ fn rotations_that_are_held_with_a_translation_are_known_again() {
     }
 }
 
-/// A block whose face is one node, of which the scene holds a rotation, and one that the face leaves a hinge: what is left of its mass is no whole
-/// body's, and is none to be judged as one. A node beside it that feels what is held is not turned.
+/// A block whose face is one node: the scene holds a rotation of it, or all but one. The mass that is left is not that of a whole body, and is not
+/// compared with one. A node beside the face that feels what is held is not along axes of its own.
 #[test]
 fn the_mass_of_a_face_that_a_scene_holds_is_not_judged() {
     let block = brick([4, 2, 2], [0.3, 0.05, 0.04], &Material::STEEL_SI);

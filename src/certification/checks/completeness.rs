@@ -81,7 +81,10 @@ impl Subject<'_> {
             fail_above: if has_none { Check::NEVER } else { 0.0 },
             worst: Some(match (n_missing, has_none) {
                 (0, _) => format!("all {n_rigid}"),
-                (_, true) => format!("{n_rigid} motions in which the model is free: the result has none of them (a `--band` that begins above zero says that this is meant)"),
+                (_, true) => format!(
+                    "{n_rigid} motions in which the model is free: the result has none of them (a `--band` that begins above zero says that \
+                     this is meant)"
+                ),
                 (n, false) => format!("{n} of {n_rigid} motions in which the model is free"),
             }),
         })
