@@ -2656,7 +2656,7 @@ pub enum Error {
         "write the coefficients with all their digits, or leave the constraint out where it says the same as others"
     )]
     #[error(
-        "constraint row {row} ({}) follows from others but for {left:.1e} – expected less than 1e-10, or more than 1e-5 – write the \
+        "constraint row {row} ({}) follows from others but for {left:.1e} – expected less than 1e-10, or more than {most:.0e} – write the \
         coefficients with all digits of a double, or leave it out if it says the same as others",
         listed(dofs)
     )]
@@ -2667,6 +2667,8 @@ pub enum Error {
         dofs: Vec<String>,
         /// What is left of it.
         left: f64,
+        /// From what on it would not follow from others, by the digits of the coefficients.
+        most: f64,
     },
     /// A dof would follow others by too large a factor.
     #[entry(
@@ -2910,12 +2912,13 @@ pub enum Error {
     #[entry(
         "E-PRELOAD-NEGATIVE",
         ModelPhysics,
-        "hold the component by `[[fixed]]` where its neighbours hold it, or reduce it at a state in which it is in tension"
+        "hold the component by `[[fixed]]` where its neighbours hold it, reduce it at a state in which it is in tension, or put the \
+         origin of a rigid patch on the line of the forces that pass it"
     )]
     #[error(
         "the preloaded component turns as a whole with the negative stiffness {energy:.1e} – expected none below -{noise:.1e} – {cause}, so \
-        that modes and counts of modes are not those of a stable structure – hold it by [[fixed]] where its neighbours hold it, or reduce \
-        it at a state in which it is in tension"
+        that modes and counts of modes are not those of a stable structure – hold it by [[fixed]] where its neighbours hold it, reduce \
+        it at a state in which it is in tension, or put the origin of a rigid patch on the line of the forces that pass it"
     )]
     NegativePreload {
         /// Why, in words.
@@ -2989,6 +2992,25 @@ pub enum Error {
         n_nodes: usize,
         /// The row of the first of them.
         first: String,
+    },
+    /// The rows of nodes are coupled as those of other nodes are, by the cells of the mesh.
+    #[entry(
+        "E-CELL-ORDER",
+        InputData,
+        "check that dof map and mesh are those of the matrices; where the cells are not those of its elements, take the nodes from a table"
+    )]
+    #[error(
+        "the stiffness couples {n_strayed} of {n_nodes} nodes with other nodes than the cells of the mesh do, the first is node {first} – \
+        expected the nodes that cells have together with it, because an element couples the nodes of its cell – check that dof map and \
+        mesh are those of the matrices; where the cells are not those of its elements, take the nodes from a table"
+    )]
+    CellsOfOthers {
+        /// Nodes that are coupled as others.
+        n_strayed: usize,
+        /// Nodes of cells.
+        n_nodes: usize,
+        /// The label of the first of them.
+        first: i64,
     },
     /// A motion as a whole, or of a mechanism, has negative energy, and a count finds the eigenvalue.
     #[entry("E-NEG-RIGID", ModelPhysics, "check preload and negative springs")]

@@ -15,7 +15,7 @@ use supel_runtime::MatrixKind;
 use super::exit_code::ExitCode;
 use super::process;
 use crate::error::{Error, Result};
-use crate::input::{self, Allowance, Cells, MeshInput, SingleMatrix};
+use crate::input::{self, Allowance, MeshInput, SingleMatrix};
 use crate::job::{Job, MatrixJob, ModelJob};
 
 /// The hidden subcommand of the child.
@@ -37,7 +37,6 @@ struct Task {
     modes: Vec<PathBuf>,
     /// A mesh that is read for itself, with its cells.
     mesh: Option<PathBuf>,
-    cells: Cells,
     memory_bytes: Option<u64>,
 }
 
@@ -63,7 +62,7 @@ impl Rehearsed {
 }
 
 /// Reads the HDF5 files of a job and of results that are read in addition to it in a child process, where there are any, in no more than
-/// `memory_bytes`; the cells of the mesh too where this process will.
+/// `memory_bytes`, and the cells of the mesh.
 ///
 /// An error that the child finds in a file is not passed on: this process finds the same one.
 ///
@@ -74,7 +73,7 @@ pub(super) fn rehearse(job: &Job, results: &[PathBuf], memory_bytes: Option<u64>
     let Some(path) = input::hdf5_file(job, results) else { return Ok(Rehearsed::Nothing) };
     let modes = job.reduction.modes_file().map(Path::to_owned).into_iter().chain(results.iter().cloned()).collect();
     let (model, matrices) = (Some(job.model.clone()), job.matrices.clone());
-    rehearsed(&Task { model, matrices, modes, mesh: None, cells: Cells::of(job), memory_bytes }, &path)
+    rehearsed(&Task { model, matrices, modes, mesh: None, memory_bytes }, &path)
 }
 
 /// Reads one matrix in a child process, where the HDF5 library reads it.
@@ -87,7 +86,7 @@ pub(super) fn rehearse_matrix(matrix: &SingleMatrix, memory_bytes: Option<u64>) 
     }
     let (file, layout) = (matrix.file.clone(), matrix.layout);
     let matrices = vec![MatrixJob { name: "the matrix".to_owned(), kind: MatrixKind::Damping, file, layout }];
-    let task = Task { model: None, matrices, modes: Vec::new(), mesh: None, cells: Cells::Unwanted, memory_bytes };
+    let task = Task { model: None, matrices, modes: Vec::new(), mesh: None, memory_bytes };
     rehearsed(&task, &matrix.path())
 }
 
@@ -100,7 +99,7 @@ pub(super) fn rehearse_mesh(path: &Path, memory_bytes: Option<u64>) -> Result<Re
         return Ok(Rehearsed::Nothing);
     }
     let (matrices, modes, mesh) = (Vec::new(), Vec::new(), Some(path.to_owned()));
-    rehearsed(&Task { model: None, matrices, modes, mesh, cells: Cells::Wanted, memory_bytes }, path)
+    rehearsed(&Task { model: None, matrices, modes, mesh, memory_bytes }, path)
 }
 
 fn rehearsed(task: &Task, path: &Path) -> Result<Rehearsed> {
@@ -201,7 +200,7 @@ pub(super) fn read_from_stdin() -> Result<ExitCode> {
     let allowance = Allowance::of(task.memory_bytes);
     let read = || match &task.mesh {
         Some(path) => MeshInput::read(path, &allowance).map(drop),
-        None => input::read_hdf5_parts(files, task.cells, &allowance),
+        None => input::read_hdf5_parts(files, &allowance),
     };
     match threads.install(read) {
         Ok(()) => Ok(ExitCode::Done),

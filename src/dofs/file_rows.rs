@@ -71,6 +71,11 @@ impl RowNames<'_> {
         self.dofs.is_some_and(|dofs| dofs[row].is_none())
     }
 
+    /// The label of the node that has the row.
+    pub fn node(self, row: usize) -> Option<i64> {
+        self.dof(row).map(|dof| dof.node)
+    }
+
     fn dof(self, row: usize) -> Option<Dof> {
         self.dofs.and_then(|dofs| dofs[row])
     }

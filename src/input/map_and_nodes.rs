@@ -8,6 +8,7 @@ use super::bulk_lines::digest_with_included;
 use super::calculix::rebuilt;
 use super::common_rows::RowLabels;
 use super::format::{DirectionBase, ReadDofs, ReadNodes};
+use super::mesh_cells::{MeshCells, mesh_cells};
 use super::node_frames::NodeFrames;
 use super::{InputNote, dof_map, formats};
 use crate::dofs::{DofMap, Nodes};
@@ -23,6 +24,8 @@ pub(super) type Digests = BTreeMap<&'static str, String>;
 pub(super) struct MapAndNodes {
     pub(super) dofs: Option<DofMap>,
     pub(super) nodes: Option<Nodes>,
+    /// The cells of the mesh that has these nodes, by their indices; none where it has none, and where CalculiX has made nodes of its own.
+    pub(super) cells: Vec<MeshCells>,
     /// Axes that nodes have of their own, as the files say.
     pub(super) said: SaidFrames,
 }
@@ -57,6 +60,8 @@ pub(super) fn map_and_nodes(
         }
         None => None,
     };
+    let mesh = model.nodes.as_deref().zip(nodes.as_ref());
+    let cells = mesh.map_or(Ok(Vec::new()), |mesh| mesh_cells(mesh, allowance, notes))?;
     match (model.dofs.as_deref(), nodes, model.nodes.as_deref()) {
         (Some(path), nodes, nodes_path) => {
             let (read, of_map) =
@@ -66,19 +71,19 @@ pub(super) fn map_and_nodes(
             digests.insert("dofs", of_map);
             let Some((nodes, nodes_path)) = nodes.zip(nodes_path) else {
                 dof_map::check_repeated(path, &dofs)?;
-                return Ok(MapAndNodes { dofs: Some(dofs), nodes: None, said });
+                return Ok(MapAndNodes { dofs: Some(dofs), nodes: None, cells, said });
             };
-            let (dofs, nodes) = match rebuilt((path, &dofs), (nodes_path, &nodes), allowance)? {
+            let (dofs, nodes, cells) = match rebuilt((path, &dofs), (nodes_path, &nodes), allowance)? {
                 Some(rebuilt) => {
                     digests.insert("dofs_data", rebuilt.digest);
                     notes.extend(rebuilt.notes);
-                    (rebuilt.dofs, rebuilt.nodes)
+                    (rebuilt.dofs, rebuilt.nodes, Vec::new())
                 }
-                None => (dofs, nodes),
+                None => (dofs, nodes, cells),
             };
             dof_map::check_repeated(path, &dofs)?;
             compare(&dofs, path, (&nodes, nodes_path), notes)?;
-            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes), said })
+            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes), cells, said })
         }
         (None, nodes, nodes_path) if named.is_some() => {
             let (path, dofs) = named.unwrap_or((Path::new(""), DofMap::new()));
@@ -86,15 +91,15 @@ pub(super) fn map_and_nodes(
             if let Some((nodes, nodes_path)) = nodes.as_ref().zip(nodes_path) {
                 compare(&dofs, path, (nodes, nodes_path), notes)?;
             }
-            Ok(MapAndNodes { dofs: Some(dofs), nodes, said })
+            Ok(MapAndNodes { dofs: Some(dofs), nodes, cells, said })
         }
         (None, Some(nodes), Some(path)) => {
             let dofs = dof_map::default_order(&nodes, path, n)?;
             let dofs_per_node = n / nodes.labels.len();
             notes.push(InputNote::DefaultOrder { dofs_per_node, nodes: path.to_owned() });
-            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes), said })
+            Ok(MapAndNodes { dofs: Some(dofs), nodes: Some(nodes), cells, said })
         }
-        (None, nodes, _) => Ok(MapAndNodes { dofs: None, nodes, said }),
+        (None, nodes, _) => Ok(MapAndNodes { dofs: None, nodes, cells, said }),
     }
 }
 

@@ -13,14 +13,14 @@ use super::internal_forces::{on_rows, read_internal_forces};
 use super::load_file::{LoadColumn, WantedColumn, WantedColumns, columns_of_file};
 use super::map_and_nodes::{Digests, MapAndNodes, dof_map_for_labels, map_and_nodes, nodes};
 use super::member::split_member;
+use super::mesh_cells::{MeshCells, mesh_cells};
 use super::modes_file::{ModeColumns, mode_columns};
 use super::nastran_frames::grid_frames;
 use super::node_frames::NodeFrames;
-use super::patch::Patches;
 use super::quantity_files::{QuantityRows, quantity_rows};
 use super::superelement_file::refuse_other;
 use super::turned_rows::{turned, turning};
-use super::{Cells, InputNote, MatrixInput, MatrixRole, deck_axes, empty_rows, formats, unit_mass};
+use super::{InputNote, MatrixInput, MatrixRole, deck_axes, empty_rows, formats, unit_mass};
 use crate::dofs::{DofMap, FileRows, Nodes, RoundedAxes};
 use crate::error::{Error, Result, Unnamed};
 use crate::job::{
@@ -43,6 +43,8 @@ pub struct Input {
     pub labels: RowLabels,
     /// Nodes; absent where the job names none.
     pub nodes: Option<Nodes>,
+    /// The cells of the mesh that has the nodes, by their indices; none where it has none.
+    pub cells: Vec<MeshCells>,
     /// Which rows of the files are left.
     pub rows: FileRows,
     /// Rows of the files that were along axes of their own; absent where all were along those of the model.
@@ -88,7 +90,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
     let n = stiffness.matrix.rows();
     let mut digests = BTreeMap::new();
     let named = labels.as_ref().map(|labels| (model.stiffness.as_path(), labels.dof_map().unwrap_or_default()));
-    let MapAndNodes { mut dofs, nodes, mut said } =
+    let MapAndNodes { mut dofs, nodes, cells, mut said } =
         map_and_nodes(model, (n, named), allowance, (&mut digests, &mut notes))?;
     said.by_decks.extend(frames);
     let layouts = [stiffness.layout, mass.as_ref().and_then(|mass| mass.layout)];
@@ -121,6 +123,7 @@ pub fn read_within(model: &ModelJob, allowance: &Allowance) -> Result<Input> {
         dofs,
         labels,
         nodes,
+        cells,
         rows,
         turning,
         axes,
@@ -257,7 +260,6 @@ pub fn start_hdf5() -> Result<()> {
 /// A file that cannot be read or whose content is wrong.
 pub fn read_hdf5_parts(
     (model, matrices, modes): (Option<&ModelJob>, &[MatrixJob], &[PathBuf]),
-    cells: Cells,
     allowance: &Allowance,
 ) -> Result<()> {
     modes.iter().try_for_each(|path| hdf5_format::rehearse_modes(path, allowance))?;
@@ -276,13 +278,7 @@ pub fn read_hdf5_parts(
     if !format.is_parsed_in_c() {
         return Ok(());
     }
-    let coordinates = nodes(path, allowance)?.coordinates;
-    match cells {
-        Cells::Wanted => {
-            format.read_faces(path, &Patches { coordinates: &coordinates, list: Vec::new() }, allowance).map(drop)
-        }
-        Cells::Unwanted => Ok(()),
-    }
+    mesh_cells((path, &nodes(path, allowance)?), allowance, &mut Vec::new()).map(drop)
 }
 
 /// Where K and M are; M may not be needed.

@@ -106,6 +106,13 @@ pub enum InputNote {
         /// The file of the nodes, whose order was used.
         nodes: PathBuf,
     },
+    /// The cells of a mesh are damaged, and compared with nothing.
+    CellsUnread {
+        /// The file of the nodes.
+        path: PathBuf,
+        /// What is wrong with them.
+        why: String,
+    },
     /// Nodes without any row.
     UnusedNodes {
         /// The file of the nodes.
@@ -317,6 +324,9 @@ impl fmt::Display for InputNote {
                 file_name(path),
                 counted(*n_elements, "element", "elements")
             ),
+            Self::CellsUnread { path, why } => {
+                write!(f, "{}: its cells are not compared with the stiffness: {why}", file_name(path))
+            }
             Self::UnusedNodes { path, count } => {
                 write!(f, "{}: {} no row", file_name(path), counted(*count, "node has", "nodes have"))
             }

@@ -1,37 +1,10 @@
-//! Which patches need the cells of a mesh, and their faces.
-
-use serde::{Deserialize, Serialize};
+//! Which patches look at the faces of a mesh, and these.
 
 use super::patch::{PatchFaces, Patches};
 use super::{Allowance, formats};
 use crate::error::Result;
-use crate::job::{Coupling, InterfaceJob, Job, ModelJob, NodeSelection, Origin, Weights};
+use crate::job::{Coupling, InterfaceJob, ModelJob, NodeSelection, Origin, Weights};
 use crate::regular_file::unchanged;
-
-/// Whether the cells of a mesh are read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Cells {
-    /// A patch may need them, a pressure, or a picture of recovered nodes.
-    Wanted,
-    /// Nothing does.
-    Unwanted,
-}
-
-impl Cells {
-    /// What a job may need, and the file of its nodes may have.
-    pub fn of(job: &Job) -> Self {
-        let is_mesh = job
-            .model
-            .nodes
-            .as_deref()
-            .and_then(|path| formats::of_nodes(path).ok())
-            .is_some_and(|format| format.has_cells());
-        let is_wanted = job.interfaces.iter().any(looks_at_faces)
-            || job.loads.iter().any(|load| load.pressure.is_some())
-            || job.write.recovery.is_some();
-        if is_mesh && is_wanted { Self::Wanted } else { Self::Unwanted }
-    }
-}
 
 /// Whether the faces between the nodes of an interface tell something of it: its weights, its origin, or how far that is from their
 /// centroid.

@@ -130,6 +130,15 @@ pub enum Finding {
         /// Some of these rows.
         at: String,
     },
+    /// Nodes that K couples with the neighbours that another node has by the cells of the mesh.
+    CellsOfOthers {
+        /// How many.
+        n_strayed: usize,
+        /// Nodes of cells.
+        n_nodes: usize,
+        /// The labels of some of them.
+        at: String,
+    },
     /// Rotations that the job says to be held and that K lets pass.
     RotationsFree {
         /// The rotations, `rx` to `rz`.
@@ -281,6 +290,7 @@ impl Finding {
             }
             Self::MassByDirection { .. } => Some("W-MASS-DIRECTION"),
             Self::DirectionOfOthers { .. } => Some("W-DIRECTION-ORDER"),
+            Self::CellsOfOthers { .. } => Some("W-CELL-ORDER"),
             Self::RotationsFree { .. } => Some("W-NOT-HELD"),
             Self::FrameDigits { .. } => Some("W-FRAME-DIGITS"),
             Self::OriginFar { .. } => Some("W-ORIGIN-FAR"),
@@ -329,6 +339,7 @@ impl std::fmt::Display for Finding {
             Self::DirectionOfOthers { what, n_strayed, n_nodes, at } => {
                 f.write_str(&words::direction_of_others(what, [*n_strayed, *n_nodes], at))
             }
+            Self::CellsOfOthers { n_strayed: n, n_nodes, at } => f.write_str(&words::cells_of_others([*n, *n_nodes], at)),
             Self::MassByDirection { n_nodes, at } => f.write_str(&words::mass_by_direction(*n_nodes, at)),
             Self::RotationsFree { rotations } => f.write_str(&words::rotations_free(rotations)),
             Self::OriginFar { interface, origin, ratio } => f.write_str(&words::origin_far(interface, *origin, *ratio)),

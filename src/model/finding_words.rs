@@ -113,6 +113,13 @@ pub(super) fn direction_of_others(what: &str, [n_strayed, n_nodes]: [usize; 2], 
     )
 }
 
+pub(super) fn cells_of_others([n_strayed, n_nodes]: [usize; 2], at: &str) -> String {
+    format!(
+        "the stiffness couples {n_strayed} of {n_nodes} nodes as the cells of the mesh do others, first nodes {at}: check that dof map \
+         and mesh are those of the matrices"
+    )
+}
+
 pub(super) fn origin_far(interface: &str, origin: [f64; 3], ratio: f64) -> String {
     format!(
         "the origin ({}) of interface {interface:?} is {} times the size of the part away from its nodes: check its unit; digits are \

@@ -7,13 +7,12 @@
 mod added_mass;
 mod bodies;
 mod definite;
-mod direction_order;
 mod finding;
 mod finding_words;
 mod fit;
 mod heavy_rows;
-mod mass_order;
 mod multipliers;
+mod node_order;
 mod scaling;
 mod site;
 mod swapped;
@@ -143,10 +142,7 @@ impl Model {
             refuse_negative_diagonals(&stiffness, names)?;
         }
         check_diagonals((&stiffness, &mass), names, &tied, &mut findings)?;
-        findings.extend(mass_order::compared(&stiffness, &mass, dofs.as_deref(), names)?);
-        for matrix in [("stiffness", &stiffness), ("mass", &mass)] {
-            findings.extend(direction_order::compared(matrix, dofs.as_deref(), names)?);
-        }
+        findings.extend(node_order::compared([&stiffness, &mass], (input.nodes.as_ref(), &input.cells), names)?);
         clear_negative_rounding(&mut mass);
         let scaling = Scaling::take_out(&mut stiffness, &mut mass)?;
         let in_scaled_units = |force: f64| force / scaling.stiffness_unit();

@@ -307,6 +307,7 @@ mod tests {
             mass: matrix(&m),
             dofs: None,
             labels: Default::default(),
+            cells: Vec::new(),
             nodes: None,
             rows: Default::default(),
             constraints: None,

@@ -34,24 +34,40 @@ const MOST_OF_A_FACTOR: f64 = 0.5 + 1e-9;
 /// Singular values of unit columns, relative to the largest, that are rounding of coordinates: nodes in line turn about none.
 const NOTHING: f64 = 1e-9;
 
-/// The constraints with those set right that digits alone keep from letting rigid-body motion pass, and what is to be said of these.
+/// Constraints with those set right that digits alone keep from letting rigid-body motion pass.
+pub(super) struct SetRight {
+    pub(super) rows: ConstraintRows,
+    /// What their digits leave open of the factors of each that was set right.
+    pub(super) open: Vec<Option<Constraint>>,
+    /// What is to be said of them.
+    pub(super) finding: Option<Finding>,
+}
+
+/// Sets right what digits alone keep from letting rigid-body motion pass.
 ///
 /// # Errors
 /// [`crate::error::Error::DenseEigen`].
-pub(super) fn set_right(motions: &Motions<'_>, given: &ConstraintRows) -> Result<(ConstraintRows, Option<Finding>)> {
-    let mut rows = given.clone();
+pub(super) fn set_right(motions: &Motions<'_>, given: &ConstraintRows) -> Result<SetRight> {
+    let (mut rows, mut open) = (given.clone(), vec![None; given.list.len()]);
     let mut worst: Option<(Resisting<'_>, f64)> = None;
     let mut n_rows = 0;
     if !motions.are_placed() {
-        return Ok((rows, None));
+        return Ok(SetRight { rows, open, finding: None });
     }
-    for (constraint, own) in given.list.iter().zip(&mut rows.list) {
+    for ((constraint, own), open) in given.list.iter().zip(&mut rows.list).zip(&mut open) {
         let resisting = motions.resisted(constraint, OF_DOUBLES).filter(|resisting| resisting.share <= ROUNDED);
         let Some(resisting) = resisting else { continue };
-        let Some(right) = within_digits(motions, constraint)? else { continue };
-        if motions.resisted(&right, EXACT).is_some() {
-            continue;
+        let half_units = half_units(&constraint.terms);
+        // Factors that are what rounding left of nothing resist other motions than the rest, by next to nothing and by more than digits of
+        // their own explain.
+        let mut right = None;
+        for least in [OF_DOUBLES, EXACT] {
+            let found = within_digits(motions, constraint, (&half_units, least))?;
+            right = right.or(found.filter(|right| motions.resisted(right, EXACT).is_none()));
         }
+        let Some(right) = right else { continue };
+        let of_rows = constraint.terms.iter().zip(&half_units).map(|((row, _), half_unit)| (*row, *half_unit));
+        *open = Some(Constraint { row: constraint.row, terms: of_rows.collect() });
         let change = change(constraint, &right);
         *own = right;
         if resisting.share <= EXACT {
@@ -66,14 +82,19 @@ pub(super) fn set_right(motions: &Motions<'_>, given: &ConstraintRows) -> Result
         let (row, dofs) = (resisting.constraint.row + 1, resisting.constraint.dofs(motions.names()).join(", "));
         Finding::ConstraintMended { row, dofs, motion: resisting.name(), n_rows, share: resisting.share, change }
     });
-    Ok((rows, finding))
+    Ok(SetRight { rows, open, finding })
 }
 
-/// The constraint that lets all motions pass and is nearest to this one by its digits; none where these do not reach it.
-fn within_digits(motions: &Motions<'_>, constraint: &Constraint) -> Result<Option<Constraint>> {
-    let terms = &constraint.terms;
-    let of_rows = motions.about_middle(constraint);
-    let half_units = half_units(terms);
+/// The constraint that lets all motions pass and is nearest to this one by its digits; none where these do not reach it. What it resists by
+/// no more than a share `least` stays so.
+fn within_digits(
+    motions: &Motions<'_>,
+    constraint: &Constraint,
+    (half_units, least): (&[f64], f64),
+) -> Result<Option<Constraint>> {
+    let (terms, middle) = (&constraint.terms, motions.middle(constraint));
+    let of_rows: Vec<[f64; 6]> = terms.iter().map(|(row, _)| motions.at(*row as usize, middle)).collect();
+    let shares = motions.shares(constraint, middle);
     let weighted = Mat::from_fn(terms.len(), 6, |i, j| half_units[i] * of_rows[i][j]);
     let norms: Vec<f64> = (0..6).map(|j| dense::norm(dense::column(weighted.as_ref(), j))).collect();
     let moving: Vec<usize> = (0..6).filter(|j| norms[*j] > 0.0).collect();
@@ -82,7 +103,8 @@ fn within_digits(motions: &Motions<'_>, constraint: &Constraint) -> Result<Optio
     let unit = Mat::from_fn(n_rows, moving.len(), |i, j| {
         if i < terms.len() { weighted[(i, moving[j])] / norms[moving[j]] } else { 0.0 }
     });
-    let left = |j: &usize| terms.iter().zip(&of_rows).map(|((_, value), of)| value * of[*j]).sum::<f64>() / norms[*j];
+    let sum = |j: usize| terms.iter().zip(&of_rows).map(|((_, value), of)| value * of[j]).sum::<f64>();
+    let left = |j: &usize| if shares[*j] > least { sum(*j) / norms[*j] } else { 0.0 };
     let left: Vec<f64> = moving.iter().map(left).collect();
     let (singular, directions) = dense::right_singular(unit.as_ref())?;
     let mut steps = vec![0.0; terms.len()];

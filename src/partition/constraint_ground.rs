@@ -91,18 +91,17 @@ impl<'a> Motions<'a> {
         self.sites.is_some()
     }
 
-    /// The six motions of the rows of a constraint about their own middle.
-    pub(super) fn about_middle(&self, constraint: &Constraint) -> Vec<[f64; 6]> {
+    /// The middle of the rows of a constraint.
+    pub(super) fn middle(&self, constraint: &Constraint) -> [f64; 3] {
         let rows = || constraint.terms.iter().map(|(row, _)| *row as usize);
         let sites = self.sites.as_deref().unwrap_or_default();
         let places: Vec<[f64; 3]> = rows().filter_map(|row| sites.get(row)?.map(|site| site.position)).collect();
         let mean = |axis: usize| places.iter().map(|place| place[axis]).sum::<f64>() / places.len().max(1) as f64;
-        let middle = [0, 1, 2].map(mean);
-        rows().map(|row| self.at(row, middle)).collect()
+        [0, 1, 2].map(mean)
     }
 
     /// The six motions of a row about a point; without coordinates the translations, without a dof map nothing.
-    fn at(&self, row: usize, centre: [f64; 3]) -> [f64; 6] {
+    pub(super) fn at(&self, row: usize, centre: [f64; 3]) -> [f64; 6] {
         if let Some(rounded) = self.model.fit.rounded() {
             return rounded.motion(row, centre);
         }
@@ -119,6 +118,13 @@ impl<'a> Motions<'a> {
     /// The motion that a constraint resists most, relative to displacements of all of its dofs of the size that the motion has anywhere; none
     /// where that is no more than `least`.
     pub(super) fn resisted<'b>(&self, constraint: &'b Constraint, least: f64) -> Option<Resisting<'b>> {
+        let shares = self.shares(constraint, self.centre);
+        let motion = (1..6).fold(0, |most, j| if shares[j] > shares[most] { j } else { most });
+        (shares[motion] > least).then(|| Resisting { constraint, motion, share: shares[motion] })
+    }
+
+    /// By how much a constraint resists each motion about a point, relative as in [`Motions::resisted`].
+    pub(super) fn shares(&self, constraint: &Constraint, centre: [f64; 3]) -> [f64; 6] {
         let (mut sums, mut sizes) = ([0.0f64; 6], [0.0f64; 6]);
         let turns = |row: u32| {
             let dof = self.model.dofs.as_ref().and_then(|dofs| dofs[row as usize]);
@@ -127,7 +133,7 @@ impl<'a> Motions<'a> {
         let size_of = |(row, value): &(u32, f64)| value.abs() / if turns(*row) { self.size } else { 1.0 };
         let largest = constraint.terms.iter().map(size_of).fold(0.0, f64::max);
         for (row, value) in constraint.terms.iter().filter(|term| size_of(term) > NOTHING * largest) {
-            let motion = self.at(*row as usize, self.centre);
+            let motion = self.at(*row as usize, centre);
             let turns = turns(*row);
             for j in 0..6 {
                 sums[j] += value * motion[j];
@@ -140,8 +146,6 @@ impl<'a> Motions<'a> {
                 sizes[j] += value.abs() * size;
             }
         }
-        let share = |j: usize| if sizes[j] > 0.0 { sums[j].abs() / sizes[j] } else { 0.0 };
-        let motion = (1..6).fold(0, |most, j| if share(j) > share(most) { j } else { most });
-        (share(motion) > least).then(|| Resisting { constraint, motion, share: share(motion) })
+        std::array::from_fn(|j| if sizes[j] > 0.0 { sums[j].abs() / sizes[j] } else { 0.0 })
     }
 }

@@ -11,7 +11,8 @@
 
 use std::collections::BTreeMap;
 
-use super::elimination::{Elimination, Obstacle, Terms, eliminated, summed};
+use super::constraint_digits::SetRight;
+use super::elimination::{Elimination, LEAST_PIVOT, Obstacle, Terms, eliminated, summed};
 use super::transformation::{DofOrigin, ReducedDof, Transformation};
 use super::{constraint_digits, constraint_ground};
 use crate::error::{Error, Result};
@@ -40,15 +41,21 @@ pub(super) fn applied(model: &Model, transformation: Transformation) -> Result<(
     let Some(given) = &model.constraints else { return Ok((transformation, 0, Vec::new())) };
     refuse_out_of_range(given)?;
     let motions = constraint_ground::Motions::of(model);
-    let (given, mended) = constraint_digits::set_right(&motions, given)?;
+    let SetRight { rows: given, open, finding: mended } = constraint_digits::set_right(&motions, given)?;
     let given = &given;
     let ground = constraint_ground::held_motion(&motions, given)?;
     let whole = size(model);
     let scales = scales(given, &transformation, whole);
     let rows: Vec<Terms> = given.list.iter().map(|row| carried(row, &transformation, &scales)).collect();
+    let uncertain: Vec<f64> = given
+        .list
+        .iter()
+        .zip(&open)
+        .map(|(row, open)| share_open((row, open.as_ref()), &transformation, &scales))
+        .collect();
     let costs: Vec<Option<u32>> = transformation.dofs.iter().map(|dof| cost(model, dof)).collect();
     let Elimination { dependent, redundant } =
-        eliminated(&rows, &costs).map_err(|obstacle| refused(model, given, obstacle))?;
+        eliminated(&rows, &uncertain, &costs).map_err(|obstacle| refused(model, given, obstacle))?;
     let largest = refuse_spread(model, &transformation, &dependent)?;
     let in_units = |(dof, terms): (u32, Terms)| {
         let own = scales[dof as usize];
@@ -167,6 +174,7 @@ fn refuse_broken(
                 row: row.row + 1,
                 dofs: row.dofs(model.names()),
                 left: left / largest,
+                most: LEAST_PIVOT,
             });
         }
     }
@@ -179,6 +187,20 @@ struct Solved<'a> {
     scales: &'a [f64],
     /// Each dependent dof with its terms.
     dependent: &'a BTreeMap<u32, Terms>,
+}
+
+/// What the digits of a constraint leave open, relative to its largest term on the dofs.
+fn share_open(
+    (constraint, open): (&Constraint, Option<&Constraint>),
+    transformation: &Transformation,
+    scales: &[f64],
+) -> f64 {
+    let largest = |constraint: &Constraint| {
+        let scaled = on_dofs(constraint, transformation).map(|(dof, value)| (value * scales[dof as usize]).abs());
+        scaled.fold(0.0f64, f64::max)
+    };
+    let whole = largest(constraint);
+    open.filter(|_| whole > 0.0).map_or(0.0, |open| largest(open) / whole)
 }
 
 /// A constraint on the dofs, its largest term in [1, 2).
@@ -229,9 +251,9 @@ fn refused(model: &Model, given: &ConstraintRows, obstacle: Obstacle) -> Error {
             let (row, dofs) = name(number);
             Error::ConstraintInterface { row, dofs }
         }
-        Obstacle::NearlyFollows(number, left) => {
+        Obstacle::NearlyFollows(number, [left, most]) => {
             let (row, dofs) = name(number);
-            Error::ConstraintRank { row, dofs, left }
+            Error::ConstraintRank { row, dofs, left, most }
         }
         Obstacle::Block(number, [n_rows, n_dofs]) => {
             let (row, dofs) = name(number);

@@ -14,8 +14,10 @@ use std::collections::{BTreeMap, HashMap, VecDeque};
 /// Size of a coefficient below which it is rounding of none: what double precision leaves of sums of equations of order one.
 const NO_PIVOT: f64 = 1e-10;
 /// Size of a coefficient below which an equation is not solved for its unknown: coefficients of six digits leave less of an equation that
-/// follows from others.
-const LEAST_PIVOT: f64 = 1e-5;
+/// follows from others. Where fewer are known it is [`ROUNDINGS`] times what they leave open.
+pub(super) const LEAST_PIVOT: f64 = 1e-5;
+/// Roundings of its equations that may be left of one that follows from others: a sum of a few of them with factors of order one.
+const ROUNDINGS: f64 = 10.0;
 /// Size of the coefficient of an unknown, relative to the largest of its equation, from which it is solved for without looking at others.
 const FIRM: f64 = 0.1;
 /// Entries of C that are rounding of none, where the terms that they are sums of are of order one: they would only fill K.
@@ -42,22 +44,25 @@ pub(super) struct Elimination {
 pub(super) enum Obstacle {
     /// It leaves an equation between unknowns none of which may depend on others.
     Kept(usize),
-    /// It follows from others but for a coefficient of this size, relative to its largest.
-    NearlyFollows(usize, f64),
+    /// It follows from others but for the first size of a coefficient, relative to its largest; from the second on it would not.
+    NearlyFollows(usize, [f64; 2]),
     /// It is one of a block of so many equations in so many unknowns.
     Block(usize, [usize; 2]),
     /// Solving for its unknown takes C beyond what it may hold.
     Entries(usize),
 }
 
-/// Solves the equations A x = 0 given by their rows. `costs` says of each unknown what it takes to let it depend on others, or nothing where
+/// Solves the equations A x = 0 given by their rows; `uncertain` says how well the coefficients of each are known, relative to its largest,
+/// and is nothing where they are doubles. `costs` says of each unknown what it takes to let it depend on others, or nothing where
 /// it must not.
-pub(super) fn eliminated(rows: &[Terms], costs: &[Option<u32>]) -> Result<Elimination, Obstacle> {
+pub(super) fn eliminated(rows: &[Terms], uncertain: &[f64], costs: &[Option<u32>]) -> Result<Elimination, Obstacle> {
     let mut open = Open::of(rows, costs);
     let peeled = open.peeled();
     let mut found = Elimination::default();
     for block in open.blocks() {
-        Block::of(rows, costs, block)?.eliminate(&mut found)?;
+        let uncertain = block.iter().map(|row| uncertain[*row]).fold(0.0, f64::max);
+        let least_pivot = LEAST_PIVOT.max(ROUNDINGS * uncertain);
+        Block::of(rows, costs, block)?.eliminate(least_pivot, &mut found)?;
     }
     let mut n_entries: usize = found.dependent.values().map(Vec::len).sum();
     // Unknowns of an equation that depend on others are those of equations that were solved after it.
@@ -202,13 +207,13 @@ impl Block {
     }
 
     /// Solves for one unknown after the other, the one with the largest coefficient of all that are left.
-    fn eliminate(mut self, found: &mut Elimination) -> Result<(), Obstacle> {
+    fn eliminate(mut self, least_pivot: f64, found: &mut Elimination) -> Result<(), Obstacle> {
         let mut open: Vec<usize> = (0..self.numbers.len()).collect();
         let mut solved: Vec<(usize, usize)> = Vec::new();
         let mut is_candidate = vec![true; self.n_candidates];
         let left = loop {
             let (size, row, column) = self.largest(&open, &is_candidate);
-            if size < LEAST_PIVOT {
+            if size < least_pivot {
                 break (size, row);
             }
             self.solve_for(row, column);
@@ -217,13 +222,15 @@ impl Block {
             solved.push((row, column));
         };
         if left.0 >= NO_PIVOT {
-            return Err(Obstacle::NearlyFollows(self.numbers[left.1], left.0));
+            return Err(Obstacle::NearlyFollows(self.numbers[left.1], [left.0, least_pivot]));
         }
         for row in open {
             let kept = self.values[row][self.n_candidates..].iter().fold(0.0f64, |max, value| max.max(value.abs()));
             match kept {
-                kept if kept >= LEAST_PIVOT => return Err(Obstacle::Kept(self.numbers[row])),
-                kept if kept >= NO_PIVOT => return Err(Obstacle::NearlyFollows(self.numbers[row], kept)),
+                kept if kept >= least_pivot => return Err(Obstacle::Kept(self.numbers[row])),
+                kept if kept >= NO_PIVOT => {
+                    return Err(Obstacle::NearlyFollows(self.numbers[row], [kept, least_pivot]));
+                }
                 _ => found.redundant.push(self.numbers[row]),
             }
         }
@@ -272,7 +279,7 @@ mod tests {
 
     fn solved(rows: &[Terms], n: usize, kept: &[u32]) -> Result<Elimination, Obstacle> {
         let costs: Vec<Option<u32>> = (0..n as u32).map(|dof| (!kept.contains(&dof)).then_some(1)).collect();
-        eliminated(rows, &costs)
+        eliminated(rows, &vec![0.0; rows.len()], &costs)
     }
 
     /// Every x = C x_i solves A x = 0, and there are as many independent ones as A leaves: C is a basis of the null space.
@@ -333,7 +340,7 @@ mod tests {
         let circle = |last: f64| [vec![(0, 1.0), (1, -1.0)], vec![(1, 1.0), (2, -1.0)], vec![(0, 1.0), (2, last)]];
         assert_eq!(solved(&circle(-1.0), 3, &[]).expect("solved").redundant.len(), 1);
         let nearly = solved(&circle(-1.0 - 3e-7), 3, &[]).expect_err("neither");
-        assert!(matches!(nearly, Obstacle::NearlyFollows(_, left) if (1e-7..4e-7).contains(&left)), "{nearly:?}");
+        assert!(matches!(nearly, Obstacle::NearlyFollows(_, [left, _]) if (1e-7..4e-7).contains(&left)), "{nearly:?}");
         // All three held: u = 0 is what a regular system says.
         assert_eq!(solved(&circle(1.0), 3, &[]).expect("solved").dependent, (0..3).map(|dof| (dof, vec![])).collect());
         assert_eq!(solved(&circle(-1.0), 3, &[0, 2]).expect_err("kept"), Obstacle::Kept(1));

@@ -85,9 +85,16 @@ fn refuse_negative(
     let mass = masses.into_iter().fold(0.0, f64::max);
     match energies.first() {
         Some(energy) if *energy < -noise => {
-            let cause = match partition.model.n_held {
-                0 => "compression has it while nothing holds the component",
-                _ => "the component buckles as it is held",
+            let turns_patches = partition.interface.iter().any(|node| node.coupling.is_patch());
+            let cause = match (partition.model.n_held, turns_patches) {
+                (0, false) => "compression has it while nothing holds the component",
+                (0, true) => {
+                    "compression has it while nothing holds the component, or a rigid patch that internal forces pass beside its origin"
+                }
+                (_, false) => "the component buckles as it is held",
+                (_, true) => {
+                    "the component buckles as it is held, or internal forces pass a rigid patch beside its origin"
+                }
             };
             Err(Error::NegativePreload { cause, energy: energy / mass, noise: noise / mass })
         }

@@ -2,11 +2,11 @@
 
 use supel::cli::ExitCode;
 use supel_models::transform::{join, translated};
-use supel_models::{Ends, Material, Model, brick, spring};
+use supel_models::{Ends, Material, Model, SplitMix64, brick, spring};
 use supel_runtime::Tensors;
 use supel_testing::place::{Place, assert_close, frequencies_hz, steel_brick, supel};
 
-use crate::model::{position, rigid_elements, row, with_hub};
+use crate::model::{lever, position, rigid_elements, row, with_hub};
 use crate::{Case, Rows, matrix_market};
 
 const CRAIG_BAMPTON: &str = r#"method = "craig-bampton", modes = { count = 4 }"#;
@@ -122,6 +122,78 @@ fn constraints_of_few_digits_are_set_right() {
         assert!(told.contains("constraints resisted rigid-body motion by what their few digits leave"), "{told}");
         assert!(told.contains("error bars of frequencies do not count"), "{told}");
         assert_close(&frequencies_hz(&rounded), &frequencies_hz(&exact), near);
+    }
+}
+
+/// Factors that rounding left of none, as a solution by least squares has them, in as few digits as all others.
+#[test]
+fn factors_that_are_rounding_of_none_keep_no_constraint_from_being_set_right() {
+    let (model, hub) = with_hub(&steel_brick(), [1.0317, 0.153_71, 0.114_93]);
+    let rows = rigid_elements(&model, hub, &[5, 15, 45]);
+    let exact = Case::new(model.clone(), rows.clone()).reduced(FOOT, CRAIG_BAMPTON, "");
+    let digits = |value: f64| format!("{value:.3e}");
+    for size in [1e-18, 1e-12] {
+        let of_row = |(number, terms): (usize, &Vec<(u32, f64)>)| {
+            let has = |row: u32| terms.iter().any(|(own, _)| *own == row);
+            // Of two nodes of which the constraint has one, in the directions that it has not.
+            let rest = [5_i64, 15].iter().flat_map(|label| [0, 1, 2].map(|axis| row(&model, (*label, axis))));
+            let rest: Vec<u32> = rest.filter(|row| !has(*row)).collect();
+            let noise =
+                rest.iter().enumerate().map(|(k, row)| (*row, size * (1.3 + (number * 7 + k * 3) as f64 / 17.0)));
+            terms.iter().copied().chain(noise).collect::<Vec<_>>()
+        };
+        let noisy: Rows = rows.iter().enumerate().map(of_row).collect();
+        let case = Case::new(model.clone(), noisy.clone());
+        case.place.write("G.mtx", matrix_market(model.n, &noisy, digits).as_bytes());
+        let rounded = case.reduced(FOOT, CRAIG_BAMPTON, "");
+        let (codes, told) = case.told();
+        assert_eq!((rounded.n_rigid(), codes), (6, vec!["W-CONSTRAINT-ROUNDED".to_owned()]), "{size:e}: {told}");
+        assert!(told.contains("set right within their digits"), "{size:e}: {told}");
+        assert_close(&frequencies_hz(&rounded), &frequencies_hz(&exact), 1e-4);
+    }
+}
+
+/// Factors of the displacements of some nodes that let every rigid-body motion pass, without a pattern otherwise.
+fn passing(model: &Model, labels: &[i64], random: &mut SplitMix64) -> Vec<(u32, f64)> {
+    let dofs: Vec<(i64, u8)> = labels.iter().flat_map(|label| [0, 1, 2].map(|axis| (*label, axis))).collect();
+    let motion = |j: usize| {
+        let of = |(label, axis): &(i64, u8)| lever(position(model, *label), usize::from(*axis))[j];
+        dofs.iter().map(of).collect::<Vec<f64>>()
+    };
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let start: Vec<f64> = dofs.iter().map(|_| random.uniform() - 0.5).collect();
+    for motion in (0..6).map(motion).chain([start]) {
+        let mut left = motion;
+        for own in basis.iter().chain(&basis) {
+            let along = dot(own, &left);
+            left.iter_mut().zip(own).for_each(|(left, own)| *left -= along * own);
+        }
+        let size = dot(&left, &left).sqrt();
+        left.iter_mut().for_each(|value| *value /= size);
+        basis.push(left);
+    }
+    let factors = basis.pop().expect("what is left of the start");
+    dofs.iter().zip(factors).map(|(dof, factor)| (row(model, *dof), factor)).collect()
+}
+
+/// Constraints that are sums of others, each written with few digits: what these leave of them is no constraint.
+#[test]
+fn sums_of_constraints_of_few_digits_are_no_others() {
+    let model = steel_brick();
+    let mut random = SplitMix64::new(5);
+    let of_nodes = |labels: &[i64], random: &mut SplitMix64| passing(&model, labels, random);
+    let [first, second] = [[5, 15, 45, 30, 20], [5, 15, 45, 30, 20]].map(|labels| of_nodes(&labels, &mut random));
+    let sum = first.iter().zip(&second).map(|((row, a), (_, b))| (*row, 0.7 * (a + b))).collect();
+    let rows: Rows = vec![first, second, sum];
+    let case = Case::new(model.clone(), rows.clone());
+    case.reduced(FOOT, CRAIG_BAMPTON, "");
+    assert!(case.told().1.contains("3 constraints, 2 dofs follow others"), "{}", case.told().1);
+    for n_digits in 4..9 {
+        let digits = |value: f64| format!("{value:.*e}", n_digits - 1);
+        let case = Case::new(model.clone(), rows.clone());
+        case.place.write("G.mtx", matrix_market(model.n, &rows, digits).as_bytes());
+        assert_refused(&case, FOOT, &["E-CONSTRAINT-RANK"]);
     }
 }
 

@@ -3,6 +3,7 @@
 //! [`faults`] changes one thing of a sound model; [`table`] reduces the result with every coupling and method. What no
 //! program can see from K, M, dof map and coordinates stands there too, and in `docs/what-the-report-proves.md`.
 
+mod cells;
 mod directions;
 mod displaced;
 mod faults;

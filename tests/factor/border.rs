@@ -36,6 +36,7 @@ fn partition(matrix: &SparseMatrix, mass: impl Fn(usize) -> f64, interface: &[us
         mass: read(diagonal(&mass)),
         dofs: None,
         labels: Default::default(),
+        cells: Vec::new(),
         nodes: None,
         rows: Default::default(),
         constraints: None,

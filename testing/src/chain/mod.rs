@@ -47,6 +47,7 @@ pub fn input(model: &models::Model) -> Input {
     Input {
         stiffness: matrix(model.n, &model.stiffness),
         mass: matrix(model.n, &model.mass),
+        cells: Vec::new(),
         nodes: (!dofs.is_empty()).then_some(nodes),
         dofs: (!dofs.is_empty()).then_some(dofs),
         labels: Default::default(),

@@ -4,6 +4,7 @@
 
 use supel::error::Error;
 use supel::input::Faces;
+use supel::job::ModelJob;
 
 use super::{Folder, faces, fixture, group, read};
 
@@ -20,6 +21,24 @@ fn exodus_in_netcdf_4() {
         panic!("kinds of elements are not read")
     };
     assert!(reason.contains("Exodus"), "{reason}");
+}
+
+/// Cells are compared with what K couples, and a note says where they are not.
+#[test]
+fn cells_that_are_not_read_are_told() {
+    let folder = Folder::new();
+    let unit = |n: usize| (1..=n).map(|row| format!("{row} {row} 1.5\n")).collect::<String>();
+    for (name, is_told) in [("mesh/box.e", true), ("mesh/box22.msh", false)] {
+        let n = 3 * read(&fixture(name)).expect("a mesh").labels.len();
+        let text = format!("%%MatrixMarket matrix coordinate real symmetric\n{n} {n} {n}\n{}", unit(n));
+        let [stiffness, mass] = ["K.mtx", "M.mtx"].map(|name| folder.write(name, text.as_bytes()));
+        let model = ModelJob { stiffness, mass: Some(mass), nodes: Some(fixture(name)), ..ModelJob::default() };
+        let read = supel::input::read(&model).expect("a model");
+        assert_eq!(read.cells.is_empty(), is_told, "{name}");
+        let notes: Vec<String> = read.notes.iter().map(ToString::to_string).collect();
+        let told = notes.iter().any(|note| note.contains("its cells are not compared with the stiffness"));
+        assert_eq!(told, is_told, "{notes:?}");
+    }
 }
 
 /// Boundary conditions list nodes or elements; sections are groups of elements.
