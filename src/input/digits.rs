@@ -292,6 +292,11 @@ mod tests {
         (0..n).map(value).collect()
     }
 
+    /// Single precision numbers.
+    fn singles() -> Vec<f64> {
+        scattered(500).iter().map(|value| f64::from(*value as f32)).collect()
+    }
+
     fn printed(values: &[f64], n_digits: usize) -> Vec<f64> {
         let rounded = |value: &f64| format!("{value:.*e}", n_digits - 1).parse().expect("a number");
         values.iter().map(rounded).collect()
@@ -463,6 +468,9 @@ mod tests {
         let shortest: Vec<f64> = scattered(500).iter().map(as_text).collect();
         let ties = vec![1_595_731.2, 1_595_731.3, 4.7683716e-7, 342_810.62, 342_810.63];
         assert_eq!(digits_of(&[shortest, ties].concat()), Digits::SINGLE);
+        // A subnormal number has fewer bits, and is single precision all the same.
+        let tiny = -f64::from(f32::from_bits(0x001f_7d3b));
+        assert_eq!(digits_of(&printed(&[&singles(), &[tiny][..]].concat(), 9)), Digits::SINGLE);
         // Doubles in nine digits, and in a format that single precision fills to the last digit.
         assert_eq!(digits_of(&printed(&scattered(500), 9)), Digits::relative(9));
         let tenths: Vec<f64> = (0..64).map(|k| f64::from(2 + 777_777 * k) / 10.0).collect();

@@ -78,7 +78,7 @@ fn is_printed(Sampled { value, decimal }: Sampled, digits: u32) -> bool {
         shortest.n_digits == decimal.n_digits && (value - f64::from(single)).abs() <= HALF * step(decimal)
     };
     let is_of_text = || format!("{:.n_decimals$e}", f64::from(single)).parse() == Ok(value);
-    is_single(value) || (single.is_normal() && (is_shortest() || is_of_text()))
+    is_single(value) || (single.is_finite() && single != 0.0 && (is_shortest() || is_of_text()))
 }
 
 /// Whole numbers and quarters that are exact in single precision whatever they are.

@@ -148,6 +148,12 @@ fn span(positions: &[[f64; 3]]) -> Option<f64> {
     (span > ONE_PLACE * far).then_some(span)
 }
 
+/// M̂; a unit matrix where there is none.
+pub(crate) fn mass_or_unit(superelement: &Superelement) -> Mat<f64> {
+    let (r, mass) = (superelement.n_coordinates(), &superelement.tensors().mass);
+    if mass.rows() > 0 { dense::unpacked(mass) } else { Mat::identity(r, r) }
+}
+
 /// M̂_ii; nothing where there is no mass.
 pub(crate) fn masses(superelement: &Superelement) -> Vec<f64> {
     let mass = &superelement.tensors().mass;

@@ -20,7 +20,7 @@ use super::format::{
 };
 use super::member::split_member;
 use super::named::chosen;
-use super::strainless::{Condensed, condensed_stiffness, places};
+use super::strainless::{Condensed, condensed_stiffness, mass_or_unit, places};
 use super::unsupported_format::{PACKED_SUPERELEMENT, is_packed_superelement};
 use super::{MatrixInput, MatrixRole};
 use crate::dense;
@@ -322,11 +322,8 @@ fn entries<'a>(matrix: &Matrix, source: &MatrixSource<'a>) -> Result<Collector<'
 
 /// The digits that rigid-body motion shows K̂ to have, no more than its values.
 fn digits_shown(superelement: &Superelement, stiffness: &Matrix, of_values: Digits) -> Result<Digits> {
-    let tensors = superelement.tensors();
-    if tensors.mass.rows() == 0 {
-        return Ok(of_values);
-    }
-    let [k, m, u] = [stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    let [k, u] = [stiffness, &superelement.tensors().rigid_body_modes].map(dense::unpacked);
+    let m = mass_or_unit(superelement);
     let shown = digits([&k, &m, &u].map(Mat::as_ref), &places(superelement))?;
     Ok(shown.map_or(of_values, |shown| Digits::condensed((shown as u32).min(of_values.significant))))
 }

@@ -58,7 +58,7 @@ struct Foreign {
 }
 
 /// The formats, the more particular first.
-const FORMATS: [Foreign; 16] = [
+const FORMATS: [Foreign; 17] = [
     Foreign { begins: |start| is_utf16(&start.head), found: "text in UTF-16", for_matrix: AS_UTF8, for_table: AS_UTF8 },
     Foreign {
         begins: |start| start.packing.is_some() && start.head.starts_with(b"PK"),
@@ -140,6 +140,12 @@ const FORMATS: [Foreign; 16] = [
         for_table: "convert it by `adf2hdf`",
     },
     Foreign {
+        begins: begins_as_fluent,
+        found: "a mesh of Fluent (.msh)",
+        for_matrix: NO_MATRIX,
+        for_table: "write it as VTK or in the format of Gmsh",
+    },
+    Foreign {
         begins: is_bulk,
         found: "a Nastran deck (.bdf)",
         for_matrix: "have the program write its matrices (DMIG or OP4)",
@@ -159,6 +165,12 @@ pub(super) fn refuse(start: &FileStart<'_>, wanted: Wanted) -> Result<()> {
         }
         None => Ok(()),
     }
+}
+
+/// Sections in brackets, each of which begins with its number: a comment is 0, the header 1, the dimensions 2.
+fn begins_as_fluent(start: &FileStart<'_>) -> bool {
+    let head = start.head.trim_ascii_start();
+    head.first() == Some(&b'(') && matches!(head.get(1..3), Some([b'0'..=b'2', b' ']))
 }
 
 /// How binary files of Ansys begin: a record of a hundred words, whose mark says that they are whole numbers.

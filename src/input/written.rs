@@ -16,6 +16,8 @@ const MIN_DISTINCT_WITHOUT_ZEROS: usize = 6;
 /// Different values of a format of five digits and more, of which one at least uses all of them: numbers that are exact have fewer digits.
 const MIN_DISTINCT_OF_MANY_DIGITS: usize = 4;
 const MANY_DIGITS: u32 = 5;
+/// The most formats that the numbers of a file are written in.
+const MOST_FORMATS: usize = 3;
 /// The fewest digits of a fixed format.
 const MIN_FIXED_DIGITS: u32 = 3;
 /// The fewest decimals of a fixed point that few numbers show: one is what halves need.
@@ -52,12 +54,13 @@ fn numbers(text: &[u8]) -> impl Iterator<Item = &[u8]> {
 
 /// Digits that a fixed format wrote of every number: of `1.31e-02` three, where all of the first lines have as many, trailing zeros
 /// counted, and several different numbers use them all. Few different numbers show no pattern in their values, this shows in the text.
+/// Where the lines are of two or three formats, of other digits off the diagonal for instance, each has to be one, and the shortest counts.
 ///
 /// Numbers that need fewer digits than their format writes, those of springs and lumped masses, are exact, and so are sums of such. Numbers
 /// that are written as short as they can be have no zeros at their end, and a format without any is believed where there are many numbers.
 fn digits(text: &[u8]) -> Option<u32> {
-    let (mut full, mut n_with_zeros, mut distinct) = (BTreeSet::new(), 0, BTreeSet::new());
-    let mut n_digits = None;
+    let mut formats: BTreeMap<usize, Scientific> = BTreeMap::new();
+    let mut n_zeros = 0;
     for number in numbers(text) {
         let Some(end) = number.iter().position(|byte| b"eEdD".contains(byte)) else {
             // Comments and blank lines tell nothing, a number in another format does.
@@ -70,38 +73,68 @@ fn digits(text: &[u8]) -> Option<u32> {
         // Some formats begin with a zero before the point, which is none of the digits.
         let digits = if number.contains(&b'.') { digits.strip_prefix(b"0").unwrap_or(&digits) } else { &digits };
         if digits.iter().all(|digit| *digit == b'0') {
-            n_with_zeros += usize::from(digits.len() > 1);
+            n_zeros += usize::from(digits.len() > 1);
             continue;
         }
-        if *n_digits.get_or_insert(digits.len()) != digits.len() {
-            return None;
-        }
-        distinct.extend(value(number).map(Decimal::of));
+        let format = formats.entry(digits.len()).or_default();
+        format.distinct.extend(value(number).map(Decimal::of));
         if digits.last() == Some(&b'0') {
-            n_with_zeros += 1;
+            format.n_with_zeros += 1;
         } else {
-            full.insert(digits.to_vec());
+            format.full.insert(digits.to_vec());
         }
     }
-    let n_digits = u32::try_from(n_digits?).ok()?;
-    let is_enough = match n_with_zeros {
-        _ if full.len() >= MIN_DISTINCT_WITHOUT_ZEROS => true,
-        0 if n_digits < MANY_DIGITS => false,
-        _ if n_digits >= MANY_DIGITS && distinct.len() >= MIN_DISTINCT_OF_MANY_DIGITS => !full.is_empty(),
-        n_with_zeros => n_with_zeros > 0 && full.len() >= MIN_DISTINCT,
+    let mut formats =
+        formats.into_iter().filter_map(|(n_digits, format)| Some((u32::try_from(n_digits).ok()?, format)));
+    let (first, others): (_, Vec<_>) = (formats.next()?, formats.collect());
+    let is_fixed = match others.is_empty() {
+        true => Scientific { n_with_zeros: first.1.n_with_zeros + n_zeros, ..first.1 }.is_fixed(first.0),
+        false => {
+            let all = || std::iter::once(&first).chain(&others);
+            // Numbers as short as they can be have several lengths, too, and no zeros at their end.
+            let has_zeros = all().any(|(_, format)| format.n_with_zeros > 0);
+            others.len() < MOST_FORMATS
+                && has_zeros
+                && all().all(|(n_digits, format)| format.is_one_of_several(*n_digits))
+        }
     };
-    let is_fixed = (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && is_enough;
-    (is_fixed && !are_sums(&distinct, n_digits)).then_some(n_digits)
+    is_fixed.then_some(first.0)
+}
+
+/// What numbers in scientific notation of one number of digits show.
+#[derive(Default)]
+struct Scientific {
+    /// The digits of those that end with no zero.
+    full: BTreeSet<Vec<u8>>,
+    n_with_zeros: usize,
+    distinct: BTreeSet<Decimal>,
+}
+
+impl Scientific {
+    /// Whether they are all in this format, and rounded by it.
+    fn is_fixed(&self, n_digits: u32) -> bool {
+        let is_enough = match self.n_with_zeros {
+            _ if self.full.len() >= MIN_DISTINCT_WITHOUT_ZEROS => true,
+            0 if n_digits < MANY_DIGITS => false,
+            _ if n_digits >= MANY_DIGITS && self.distinct.len() >= MIN_DISTINCT_OF_MANY_DIGITS => !self.full.is_empty(),
+            n_with_zeros => n_with_zeros > 0 && self.full.len() >= MIN_DISTINCT,
+        };
+        (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && is_enough && !are_sums(&self.distinct, n_digits)
+    }
+
+    /// Whether they are so next to others in another one.
+    fn is_one_of_several(&self, n_digits: u32) -> bool {
+        self.full.len() >= MIN_DISTINCT_WITHOUT_ZEROS && self.is_fixed(n_digits)
+    }
 }
 
 /// Decimals that fixed point wrote of every number: of `12.870` three, where all of the first lines have as many and no exponent,
-/// trailing zeros counted.
+/// trailing zeros counted; the fewest where the lines are of two or three formats, each of which has to be one.
 ///
 /// Numbers that need fewer decimals are exact: three in five of different numbers must use the last one, six at least, and end with
 /// four different digits that are not all even. Halves, quarters and multiples of 0.2 do not.
 fn decimals(text: &[u8]) -> Option<i32> {
-    let mut n_decimals = None;
-    let mut distinct: BTreeSet<&[u8]> = BTreeSet::new();
+    let mut formats: BTreeMap<usize, BTreeSet<&[u8]>> = BTreeMap::new();
     for number in numbers(text) {
         let number = number.strip_prefix(b"-").unwrap_or(number);
         if !number.first().is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.') {
@@ -109,22 +142,35 @@ fn decimals(text: &[u8]) -> Option<i32> {
         }
         let point = number.iter().position(|byte| *byte == b'.')?;
         let after = &number[point + 1..];
-        if !after.iter().all(u8::is_ascii_digit) || *n_decimals.get_or_insert(after.len()) != after.len() {
+        if !after.iter().all(u8::is_ascii_digit) {
             return None;
         }
+        let format = formats.entry(after.len()).or_default();
         if number.iter().any(|byte| (b'1'..=b'9').contains(byte)) {
-            distinct.insert(number);
+            format.insert(number);
         }
     }
+    let is_fixed = match formats.len() {
+        1 => formats.values().all(rounded_to_last),
+        2..=MOST_FORMATS => {
+            let has_zeros = formats.values().flatten().any(|number| number.last() == Some(&b'0'));
+            has_zeros && formats.values().all(rounded_to_last)
+        }
+        _ => false,
+    };
+    let n_decimals = formats.into_keys().next().filter(|n_decimals| *n_decimals >= MIN_DECIMALS && is_fixed)?;
+    i32::try_from(n_decimals).ok()
+}
+
+/// Whether different numbers in fixed point look rounded to their last decimal.
+fn rounded_to_last(distinct: &BTreeSet<&[u8]>) -> bool {
     let full: Vec<u8> =
         distinct.iter().filter_map(|number| number.last().copied()).filter(|last| *last != b'0').collect();
     let last: BTreeSet<u8> = full.iter().copied().collect();
-    let is_rounded = full.len() >= MIN_DISTINCT_WITHOUT_ZEROS
+    full.len() >= MIN_DISTINCT_WITHOUT_ZEROS
         && 5 * full.len() >= 3 * distinct.len()
         && last.len() >= MIN_LAST_DECIMALS
-        && last.iter().any(|last| (last - b'0') % 2 == 1);
-    let n_decimals = n_decimals.filter(|n_decimals| *n_decimals >= MIN_DECIMALS && is_rounded)?;
-    i32::try_from(n_decimals).ok()
+        && last.iter().any(|last| (last - b'0') % 2 == 1)
 }
 
 /// A number that fills its field.
@@ -159,8 +205,8 @@ fn value(number: &[u8]) -> Option<f64> {
 ///
 /// Numbers of as many digits, or decimals, are longer with a sign and shorter where they end with zeros, one in ten of them. So fields are
 /// believed where three in five of the different numbers have the largest length, six at least, whose digits and decimals both differ, in
-/// a quarter of them at least, and which do not end with zeros. The digits and decimals of which one holds for each are those that leave
-/// the least of all numbers open.
+/// a quarter of them at least, and half of which do not end with zeros: of a regular mesh many numbers are round, and fill their fields with
+/// zeros. The digits and decimals of which one holds for each are those that leave the least of all numbers open.
 fn fields(text: &[u8]) -> Option<Written> {
     let words: BTreeSet<&[u8]> = numbers(text).filter(|number| value(number).is_some()).collect();
     let width = words.iter().map(|number| number.len()).max()?;
@@ -175,7 +221,7 @@ fn fields(text: &[u8]) -> Option<Written> {
     let n_zeros = filling.iter().filter(|number| Decimal::of(number.size).n_digits < number.digits).count();
     let is_filled = filling.len() >= MIN_DISTINCT_WITHOUT_ZEROS
         && 5 * filling.len() >= 3 * words.len()
-        && 4 * n_zeros <= filling.len()
+        && 2 * n_zeros <= filling.len()
         && last.len() >= MIN_LAST_DECIMALS
         && differ(&|number| number.digits as i32)
         && differ(&|number| number.decimals);
@@ -226,6 +272,24 @@ mod tests {
         assert_eq!(digits(b"1 1 0.0131\n2 2 0.0654\n3 3 0.0227\n"), None);
     }
 
+    /// Six digits on the diagonal and four off it; as many, as short as they can be.
+    #[test]
+    fn the_shortest_of_several_formats_counts() {
+        let value = |k: usize| (1.7 * (k as f64 + 1.0)).sin() * 10f64.powi(k as i32 % 5);
+        let of = |text: &dyn Fn(usize, f64) -> String| -> Vec<u8> {
+            (0..60).flat_map(|k| format!("{} {} {}\n", k + 1, k / 2 + 1, text(k, value(k))).into_bytes()).collect()
+        };
+        let scientific = of(&|k, value| if k % 3 == 0 { format!("{value:.5e}") } else { format!("{value:.3e}") });
+        assert_eq!(written(&scientific), Some(Written::Digits(4)));
+        let fixed = of(&|k, value| if k % 3 == 0 { format!("{value:.6}") } else { format!("{value:.3}") });
+        assert_eq!(written(&fixed), Some(Written::Decimals(3)));
+        let shortest = of(&|k, value| {
+            let rounded: f64 = format!("{value:.*e}", if k % 3 == 0 { 5 } else { 3 }).parse().expect("a number");
+            format!("{rounded:e}")
+        });
+        assert_eq!(written(&shortest), None);
+    }
+
     #[test]
     fn fixed_point_shows_where_its_last_decimals_are_used() {
         let lumped =
@@ -251,6 +315,11 @@ mod tests {
         assert_eq!(written(eight), Some(Written::Decimals(6)));
         let large: &[u8] = b"1 1 1.2346e+9\n2 2 123456.787\n3 3 -1.234e+10\n4 4 -98765.432\n5 5 7.6543e+8\n6 6 1234567.81\n7 7 -2345678.9\n8 8 12345.6783\n";
         assert_eq!(written(large), Some(Written::Fields { digits: 4, decimals: None }));
+        // Of a frame of equal beams: round numbers fill their fields with zeros.
+        let regular: &[u8] = b"1 1 22400.0000000\n2 2 6770391.98727\n3 3 630000.000000\n4 4 -140000000.00\n5 5 81884.3210008\n\
+            6 6 925.422802421\n7 7 -935820.81143\n8 8 9559.11250286\n9 9 -.00000000173\n10 10 8400.00000000\n11 11 -63000.000000\n\
+            12 12 9584.36481047\n13 13 3385195.99364\n";
+        assert_eq!(written(regular), Some(Written::Fields { digits: 11, decimals: Some(11) }));
         for other in [
             // Seven digits, which a sign and a decade make longer; fixed point; doubles.
             &b"1 1 1.234567\n2 2 -12.34567\n3 3 .1234568\n4 4 -765.4321\n5 5 12345.67\n6 6 -.7654321\n7 7 1.357913\n8 8 -2.468024\n"[..],

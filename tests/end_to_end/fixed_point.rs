@@ -23,9 +23,9 @@ pub(crate) type Entry = (u32, u32, f64);
 
 /// A component that is held, and its interface.
 pub(crate) struct Held {
-    name: &'static str,
+    pub(crate) name: &'static str,
     pub(crate) model: Model,
-    interface: String,
+    pub(crate) interface: String,
 }
 
 pub(crate) fn components() -> [Held; 2] {

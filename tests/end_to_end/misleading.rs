@@ -1,9 +1,10 @@
 //! Numbers that look more precise than they are, or less: what the numbers and their text show, and what only the job can say.
 
 use supel::cli::ExitCode;
+use supel_models::{Inertia, Material, Section, frame};
 
 use crate::few_digits::Found;
-use crate::fixed_point::{Entry, components, full, hold, matrix_market, printed, verified};
+use crate::fixed_point::{Entry, Held, components, full, hold, matrix_market, printed, verified};
 use crate::place::{Place, supel};
 
 /// In fixed point, where small numbers lose digits and large ones never had them, and each number as short as it can be.
@@ -20,9 +21,8 @@ fn frequencies_of_single_precision_in_any_text_stay_within_their_bars() {
     hold([4e10, 0.3], &|model| printed(model, [&full, &in_thirteen_digits]), "· 7 digits");
 }
 
-/// As many digits as there is room for in ten characters.
-fn in_ten_characters(value: f64) -> String {
-    const WIDTH: usize = 10;
+/// As many digits as there is room for in so many characters.
+fn filling<const WIDTH: usize>(value: f64) -> String {
     let shortened =
         |text: String| text.replacen("0.", ".", usize::from(text.trim_start_matches('-').starts_with("0.")));
     let forms = |n: usize| [shortened(format!("{value:.n$}")), format!("{value:.n$e}")];
@@ -37,7 +37,45 @@ fn in_ten_characters(value: f64) -> String {
 /// As many digits, decimals or both as the numbers leave.
 #[test]
 fn frequencies_of_numbers_that_fill_their_fields_stay_within_their_bars() {
-    hold([4e3, 0.3], &|model| printed(model, [&in_ten_characters, &full]), "");
+    hold([4e3, 0.3], &|model| printed(model, [&filling::<10>, &full]), "");
+}
+
+/// Large numbers in seven digits and small ones in nine: all are known to the fewer.
+#[test]
+fn frequencies_of_numbers_in_two_formats_stay_within_their_bars() {
+    let two = |value: f64| if value.abs() > 300.0 { format!("{value:.6e}") } else { format!("{value:.8e}") };
+    hold([4e3, 0.3], &|model| printed(model, [&two, &full]), "· 7 digits");
+}
+
+/// Of a frame of equal beams a third of the numbers are round, and fill their fields with zeros.
+#[test]
+fn round_numbers_that_fill_their_fields_show_no_digits() {
+    let storey = |k: f64| [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]].map(|[x, y]| [x + 0.02 * k, y, 0.35 * k]);
+    let mut nodes: Vec<[f64; 3]> = (0..6).flat_map(|k| storey(f64::from(k))).collect();
+    let around = (1..6).flat_map(|k| (0..4).map(move |corner| [4 * k + corner, 4 * k + (corner + 1) % 4]));
+    let upright = (0..20).map(|corner| [corner, corner + 4]);
+    let mut edges: Vec<[usize; 2]> = Vec::new();
+    for [a, b] in around.chain(upright) {
+        edges.extend([[a, nodes.len()], [nodes.len(), b]]);
+        nodes.push([0, 1, 2].map(|d| 0.5 * (nodes[a][d] + nodes[b][d])));
+    }
+    let section = Section { area: 1e-4, second_moment_y: 1e-9, second_moment_z: 2e-9, torsion: 2e-9 };
+    let model = frame(&nodes, &edges, &section, &Material::STEEL_SI, Inertia::Consistent);
+    let interface = "{ name = \"foot\", nodes = [1, 2, 3, 4], coupling = \"rigid\" }".to_owned();
+    let held = Held { name: "a frame of equal beams", interface, model };
+    let texts = |stiffness: &dyn Fn(f64) -> String| printed(&held.model, [stiffness, &full]);
+    let found = |texts: [String; 2]| {
+        let (place, _) = verified(&held, &held.model, texts.each_ref().map(String::as_str), "");
+        place.report("x.report.json")["body"].clone()
+    };
+    let exact = Found::of(&found(texts(&full)));
+    for (width, digits) in [(13, texts(&filling::<13>)), (14, texts(&filling::<14>)), (15, texts(&filling::<15>))] {
+        let body = found(digits);
+        let stated = body["model"]["stiffness"]["digits"].as_u64().expect("digits");
+        assert!(stated <= width - 2, "{width} characters: {stated} digits");
+        let off = Found::of(&body).worst(&exact);
+        assert!(off <= 1.0, "{width} characters: off by {off} bars");
+    }
 }
 
 /// Three chains of springs of 1000, 2.4, 0.24 and 10⁴: an entry of seven digits, 10000.24, is a sum, and no multiple of a quarter.

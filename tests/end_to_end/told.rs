@@ -262,7 +262,7 @@ fn formats_that_are_not_read_are_named() {
     let output2 = b"\x04\0\0\0\x03\0\0\0\x04\0\0\0\x0c\0\0\0\x06\0\0\0";
     let output2_wide = b"\x08\0\0\0\x03\0\0\0\0\0\0\0\x08\0\0\0\x18\0\0\0\x06\0\0\0";
     let ansys = b"\x64\0\0\0\0\0\0\x80\x04\0\0\0\xff\xff\xff\xff";
-    let files: [(&str, &[u8], &str, [&str; 2]); 13] = [
+    let files: [(&str, &[u8], &str, [&str; 2]); 14] = [
         ("shell.txt", &marked, "text in UTF-16", ["write it as UTF-8", "write it as UTF-8"]),
         ("mesh.txt", &bare, "text in UTF-16", ["write it as UTF-8", "write it as UTF-8"]),
         ("K.npz", &zip, "a NumPy archive (.npz)", ["", table]),
@@ -271,6 +271,12 @@ fn formats_that_are_not_read_are_named() {
         ("deck.inp", b"** by hand\n*NODE, NSET=ALL\n1, 0, 0, 0\n", "an input deck", ["MATRIXSTORAGE", "model.nodes"]),
         ("part.msh", b"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh", ["no assembled matrices", "model.nodes"]),
         ("job.frd", b"    1C\n    1UUSER\n", "a CalculiX result file", ["no assembled matrices", "model.nodes"]),
+        (
+            "flow.msh",
+            b"(1 \"by hand\")\n(2 3)\n(10 (0 1 8 0))\n",
+            "a mesh of Fluent",
+            ["no assembled matrices", "write it as VTK"],
+        ),
         ("wing.bdf", b"$ by hand\nSOL 103\nCEND\nBEGIN BULK\n", "a Nastran deck", ["", ""]),
         ("part.op2", output2, "a file of Nastran's OUTPUT2", ["with pyYeti", "as a dof map with pyYeti"]),
         ("wide.op2", output2_wide, "a file of Nastran's OUTPUT2", ["with pyYeti", "as a dof map with pyYeti"]),
