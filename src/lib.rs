@@ -151,7 +151,7 @@ use audit::{Audit, Reference};
 use cost_forecast::{Counting, ExpectedModes, Forecast};
 use error::{Error, Result};
 use job::{AcceptJob, Job};
-use line::{Stages, known, prepared, reduced, with_component, with_stages};
+use line::{Stages, foreknown, prepared, reduced, with_component, with_stages};
 use memory_forecast::Resources;
 use outcome::Outcome;
 use partition::Partition;
@@ -193,9 +193,9 @@ pub fn forecast(job: &Job, resources: Resources, counting: Counting, observer: &
     observer.stage("rigid-body modes");
     let (rigid, analysis) = rayon::join(|| rigid::rigid_body_modes(&partition), || partition.analysis());
     let ((rigid, _), analysis) = (rigid?, analysis?);
-    let (_, plan) = known(&plan, &partition, &rigid)?;
+    let (plan, rigid) = foreknown(&plan, &partition, rigid)?;
     observer.stage("count of modes");
-    let modes = ExpectedModes::of(&plan, &partition, &analysis, counting)?;
+    let modes = ExpectedModes::of(&plan, (&partition, &rigid), &analysis, counting)?;
     let text_bytes = input::bytes_of_matrices(plan.job());
     let forecast = Forecast::new(plan, (&partition, &analysis), modes, resources, text_bytes);
     if forecast.n_coordinates == 0 { Err(Error::NothingLeft) } else { Ok(forecast) }

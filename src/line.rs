@@ -8,7 +8,7 @@ use crate::damping::{Damping, refuse_resistance};
 use crate::error::{Error, Result};
 use crate::factor::{Analysis, Storage};
 use crate::input::{self, Allowance, InputFacts};
-use crate::job::ModeSelection;
+use crate::job::{Mechanisms, ModeSelection};
 use crate::memory_forecast::{self, Resources};
 use crate::model::{self, Model};
 use crate::modes::{Component, Retained, Search, StaticSet};
@@ -127,6 +127,23 @@ pub(crate) fn with_component<T>(
     let component = Component::new(partition, &analysis, &factor, &rigid, held.as_ref());
     let n_other_factors = n_extra + n_counted + n_factorisations;
     then(Conditioned { component, plan: &plan, rank, loose: &loose, storage, n_other_factors }, observer)
+}
+
+/// The plan of [`known`] and all motions without energy: with them the mechanisms that the job accepts, which a reduction finds behind its
+/// factorisation. Here they take one.
+pub(crate) fn foreknown(plan: &Plan, partition: &Partition, rigid: RigidBodyModes) -> Result<(Plan, RigidBodyModes)> {
+    let (Reaction { rank, every, .. }, known) = known(plan, partition, &rigid)?;
+    let every = match every {
+        None if plan.job().model.mechanisms == Mechanisms::Accept => {
+            match rigid::counted_by_matrices(partition, rigid.clone()) {
+                // What the digits do not let be counted, a reduction finds in its own way.
+                Err(error) if error.class().is_of_matrices() => rigid,
+                counted => counted?.0,
+            }
+        }
+        every => every.unwrap_or(rigid),
+    };
+    Ok((known.knowing(rigid::facts(partition, &every, rank)), every))
 }
 
 /// How the interface reacts motions without energy, and the plan with what the model decides.

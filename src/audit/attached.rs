@@ -84,17 +84,22 @@ fn uncoupled(content: &Content<'_>, amplitudes: MatRef<'_, f64>) -> Check {
         let force = dense::product(content.k.as_ref().submatrix(b, b, n, n), q);
         dense::dot(dense::column(q, 0), dense::column(force.as_ref(), 0)).abs()
     };
-    let mut worst = (0.0, None);
+    let inverse = Inverse::of(content);
+    let (mut worst, mut limits) = ((0.0, None), content.rounding_limits());
     for (slot, mode) in slots(content, |coordinate| coordinate.mode().map(|(mode, _)| mode)) {
         let own = diagonal(slot);
+        let motion = interface_of_mode(content, content.lambda[mode], amplitudes.subcols(slot, 1));
+        let terms = inverse.as_ref().map(|inverse| inverse.terms(motion.as_ref()));
         for i in 0..b {
-            let error = coupling[(i, slot)].abs() / (content.k[(i, i)] * own).abs().sqrt();
+            let size = (content.k[(i, i)] * own).abs().sqrt();
+            let error = coupling[(i, slot)].abs() / size;
+            let rounding = terms.as_ref().map_or(0.0, |terms| NOISE_FACTOR * f64::EPSILON * terms[(i, 0)] / size);
+            limits.arithmetic = limits.arithmetic.max(rounding.min(LARGEST_EXCUSE));
             if dense::worse(error, worst.0) {
                 worst = (error, Some(format!("{} and mode {}", content.name_of(i), mode + 1)));
             }
         }
     }
-    let limits = content.rounding_limits();
     Check {
         id: "M-13",
         name: "interface and elastic modes uncoupled in stiffness",
@@ -104,6 +109,44 @@ fn uncoupled(content: &Content<'_>, amplitudes: MatRef<'_, f64>) -> Check {
         fail_above: limits.value().max(1e-6),
         worst: worst.1,
     }
+}
+
+/// K̂_BB of a file, which is the inverse of A_B.
+struct Inverse {
+    stiffness: Mat<f64>,
+    /// |K̂_BB||A_B|.
+    terms: Mat<f64>,
+}
+
+impl Inverse {
+    /// None where K̂_BB has no inverse.
+    fn of(content: &Content<'_>) -> Option<Self> {
+        let b = content.n_b;
+        let stiffness = content.k.as_ref().submatrix(0, 0, b, b).to_owned();
+        let (scaled, scale) = dense::unit_diagonal(stiffness.as_ref());
+        let inverse = scaled.llt(Side::Lower).ok()?.solve(Mat::<f64>::identity(b, b));
+        let flexibility = Mat::from_fn(b, b, |i, j| (inverse[(i, j)] * scale[i] * scale[j]).abs());
+        let terms = dense::product(dense::absolute(stiffness.as_ref()).as_ref(), flexibility.as_ref());
+        Some(Self { stiffness, terms })
+    }
+
+    /// |K̂_BB||A_B||K̂_BB φ_B|: what ε makes an error of K̂_BB φ_B (Higham 2002, section 14.1). K̂_B of a mode is the difference of
+    /// A_B⁻ᵀA_IᵀKφ and this, which are equal.
+    fn terms(&self, motion: MatRef<'_, f64>) -> Mat<f64> {
+        let force = dense::product(self.stiffness.as_ref(), motion);
+        dense::product(self.terms.as_ref(), dense::absolute(force.as_ref()).as_ref())
+    }
+}
+
+/// φ_B of an elastic mode with the amplitudes q: (K̂_BB − λM̂_BB) φ_B = −(K̂_B − λM̂_B) q.
+fn interface_of_mode(content: &Content<'_>, lambda: f64, q: MatRef<'_, f64>) -> Mat<f64> {
+    let (b, r, d) = (content.n_b, content.n_reduced(), &content.scale);
+    let dynamic = Mat::from_fn(b, r, |i, j| (content.k[(i, j)] - lambda * content.m[(i, j)]) * d[i]);
+    let mut load = dense::product(dynamic.as_ref().subcols(b, r - b), q);
+    load *= faer::Scale(-1.0);
+    let own = Mat::from_fn(b, b, |i, j| dynamic[(i, j)] * d[j]);
+    let motion = dense::least_squares(own.as_ref(), load.as_ref());
+    Mat::from_fn(b, 1, |i, _| motion[(i, 0)] * d[i])
 }
 
 /// M-22: ÛᵀM̂ of the static modes.

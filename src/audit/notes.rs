@@ -1,7 +1,7 @@
 //! What could not be judged, and which fields no comparison confirms.
 
 use serde::Serialize;
-use supel_runtime::{Flag, MatrixKind, Method, RigidBodyModes, Superelement};
+use supel_runtime::{Flag, MOTIONS, MatrixKind, Method, RigidBodyModes, Superelement};
 
 use super::content::Content;
 use super::recovery;
@@ -66,7 +66,10 @@ const ALONE: [Unvouched; 35] = [
     unvouched("dropped[].reason", "words for people"),
     unvouched("dropped[].cause", "what starts a mode that is in no matrix is known from the model only"),
     unvouched("model.n_dofs", NOT_AT_HAND),
-    unvouched("model.rigid_body_modes", "without interface nodes nothing else tells unit motions from others"),
+    unvouched(
+        "model.rigid_body_modes",
+        "without interface nodes, or motions that supports leave, nothing else tells unit motions from others",
+    ),
     unvouched(
         "model.mass_properties",
         "a component whose rigid-body modes are not six unit motions has no other place for them",
@@ -130,14 +133,16 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "dropped" => metadata.method == Method::ModeAcceleration,
         "dropped[].column" | "dropped[].reason" => !metadata.dropped.is_empty(),
         "dropped[].cause" => metadata.unseen_modes().next().is_some(),
-        "model.rigid_body_modes" => metadata.interface_nodes.is_empty(),
+        "model.rigid_body_modes" => metadata.interface_nodes.is_empty() || superelement.n_rigid() == 0,
         "mixing" => tensors.mixing.is_some(),
         "model.mass_properties" => is_algebraic && metadata.model.mass_properties.is_some(),
         // Of a preloaded component it is the inertia of translations, which the interface tells.
         "gravity" => {
             let is_told =
                 metadata.flags.contains(&Flag::Preloaded) && superelement.n_interface() >= superelement.n_rigid();
-            is_algebraic && tensors.gravity.is_some() && !(is_told && superelement.n_rigid() > 0)
+            let is_held = !metadata.interface_nodes.is_empty() && superelement.n_rigid() < MOTIONS.len();
+            let may_have = tensors.gravity.is_some() || is_held;
+            is_algebraic && may_have && !(is_told && superelement.n_rigid() > 0)
         }
         "load_vectors" => tensors.load_vectors.is_some(),
         "rigid_body_mass" => superelement.n_rigid() == 0,

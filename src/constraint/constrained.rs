@@ -45,5 +45,6 @@ pub fn constrained<'a>(
     factor.refinement()?;
     let (rigid, loose) = with_mechanisms(partition, &modes, rigid)?;
     let rigid = with_passing(rigid, partition)?;
+    let n_factorisations = n_factorisations + loose.n_factorisations;
     Ok(Constrained { modes: Some(modes), rigid, rank, loose, n_factorisations })
 }

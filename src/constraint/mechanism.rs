@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::factor::{Analysis, few_digits, whole_count};
 use crate::job::Mechanisms;
 use crate::partition::Partition;
-use crate::rigid::{RigidBodyModes, lost_interface, refuse_uncounted, residual_of, settled, zero_energy};
+use crate::rigid::{RigidBodyModes, lost_interface, refuse_uncounted, residual_of, settled, zero_energy, zero_modes};
 use crate::sparse::absolute_energy;
 use crate::sparse::{product, product_and_terms};
 
@@ -52,6 +52,8 @@ pub struct LooseMotions {
     pub uncertain: Vec<Loose>,
     /// What few digits leave open of the eigenvalues of mechanisms, relative to the next one; zero without mechanisms.
     pub share_of_next: f64,
+    /// Factorisations that telling them took.
+    pub n_factorisations: usize,
 }
 
 /// How far up, relative to the first motion with energy, few digits may leave open what motions inside the component cost, without the job
@@ -122,7 +124,7 @@ pub fn with_mechanisms(
             found.uncertain.push(loose(bar));
         }
     }
-    found.share_of_next = counted_share(partition, constraint, (&rigid, &found))?;
+    (found.share_of_next, found.n_factorisations) = counted_share(partition, constraint, (&rigid, &found))?;
     // Where the rows that move have hardly any stiffness, a rounding of those at rest would be all the force there is.
     let free = settled(partition, dense::columns(motions.as_ref(), &free));
     let n_grey = found.grey.len() + found.uncertain.len();
@@ -154,27 +156,33 @@ fn is_rounding(
 }
 
 /// Mechanisms by few digits are believed where what rounding makes is nothing compared with the softest motion that is none. Where the
-/// interface has no other motion, nothing is left of its stiffness that could tell.
+/// interface has no other motion the matrices tell that one, if they have as many motions without energy: else nothing is left of the
+/// stiffness of the interface. With the share the factorisations that it took.
 fn counted_share(
     partition: &Partition,
     constraint: &ConstraintModes<'_>,
     (rigid, found): (&RigidBodyModes, &LooseMotions),
-) -> Result<f64> {
+) -> Result<(f64, usize)> {
     if found.mechanisms.is_empty() || !partition.has_few_digits() {
-        return Ok(0.0);
+        return Ok((0.0, 0));
     }
     let others: Vec<f64> = found.grey.iter().chain(&found.uncertain).map(|motion| motion.bar / motion.lambda).collect();
     let n_free = rigid.count() + found.mechanisms.len();
     let stiffer = stiffer_motion(partition, constraint, rigid)?;
     if stiffer.ncols() == 0 && others.is_empty() {
-        return Err(lost_interface(partition.precision.stiffness, n_free));
+        let every = zero_modes(partition)?;
+        if every.rigid.count() != n_free {
+            return Err(lost_interface(partition.precision.stiffness, n_free));
+        }
+        refuse_uncounted(partition.precision.stiffness, n_free, every.bar_of_digits)?;
+        return Ok((every.bar_of_digits, every.n_factorisations));
     }
     let next = orthonormal(partition, rigid, stiffer)?;
     let (lambda, errors, _) = rayleigh_quotients(partition.free_problem(), next.as_ref());
     let of_next = lambda.iter().zip(&errors).map(|(lambda, error)| error.zero_level / lambda);
     let bar = others.into_iter().chain(of_next).fold(0.0, f64::max);
     refuse_uncounted(partition.precision.stiffness, n_free, bar)?;
-    Ok(bar)
+    Ok((bar, 0))
 }
 
 /// V for every eigenvector of S that is soft and no rigid-body motion; columns of unit length in the scales of the dofs.

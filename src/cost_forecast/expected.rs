@@ -8,7 +8,7 @@ use crate::job::{Boundary, ModeSelection};
 use crate::memory_forecast::MODES_IN_A_BAND;
 use crate::partition::Partition;
 use crate::plan::{Modes, Plan};
-use crate::rigid::{RigidBodyModes, rigid_body_modes, with_passing};
+use crate::rigid::{RigidBodyModes, with_passing};
 
 /// Operations of a factorisation that nobody waits for: two seconds of the nominal machine.
 const SMALL: f64 = 2e10;
@@ -44,11 +44,16 @@ pub struct ExpectedModes {
 }
 
 impl ExpectedModes {
-    /// The modes that a plan keeps; those of a band are counted where `counting` allows it.
+    /// The modes that a plan keeps; those of a band are counted where `counting` allows it. `rigid` is all motions without energy.
     ///
     /// # Errors
     /// No memory for the factorisation.
-    pub fn of(plan: &Plan, partition: &Partition, analysis: &Analysis, counting: Counting) -> Result<Self> {
+    pub fn of(
+        plan: &Plan,
+        (partition, rigid): (&Partition, &RigidBodyModes),
+        analysis: &Analysis,
+        counting: Counting,
+    ) -> Result<Self> {
         let up_to_hz = match (plan.modes(), plan.job().reduction.wanted()) {
             (Modes::NotAsked, _) => return Ok(Self { count: 0, known: Known::Asked }),
             (Modes::Computed, ModeSelection::Count { count }) => {
@@ -57,7 +62,7 @@ impl ExpectedModes {
             (Modes::Computed, ModeSelection::UpTo { up_to_hz }) => up_to_hz,
         };
         let is_counted = counting == Counting::Always || analysis.flops <= SMALL;
-        let counted = if is_counted { counted(plan, partition, analysis, up_to_hz)? } else { None };
+        let counted = if is_counted { counted(plan, (partition, rigid), analysis, up_to_hz)? } else { None };
         Ok(match counted {
             Some(count) => Self { count, known: Known::Counted },
             None => Self { count: MODES_IN_A_BAND, known: Known::Assumed },
@@ -74,7 +79,12 @@ fn most_modes(plan: &Plan, partition: &Partition) -> usize {
 }
 
 /// Elastic modes up to a frequency under the boundary of the job; none where the shift hits an eigenvalue.
-fn counted(plan: &Plan, partition: &Partition, analysis: &Analysis, up_to_hz: f64) -> Result<Option<usize>> {
+fn counted(
+    plan: &Plan,
+    (partition, rigid): (&Partition, &RigidBodyModes),
+    analysis: &Analysis,
+    up_to_hz: f64,
+) -> Result<Option<usize>> {
     let boundary = partition.boundary(plan.job().reduction.method.boundary());
     let n_rigid = plan.facts().map_or(0, |facts| facts.n_rigid);
     let sigma = partition.scaling.eigenvalue(up_to_hz);
@@ -84,7 +94,7 @@ fn counted(plan: &Plan, partition: &Partition, analysis: &Analysis, up_to_hz: f6
         Err(error) => Err(error),
         Ok(count) if boundary == Boundary::FixedInterface && !is_modal => Ok(Some(count.clamped)),
         Ok(count) if boundary == Boundary::MixedInterface => {
-            let rigid = with_passing(rigid_body_modes(partition)?.0, partition)?;
+            let rigid = with_passing(rigid.clone(), partition)?;
             let n_passing = rigid.under(boundary).map_or(0, RigidBodyModes::count);
             Ok(Some(count.free.saturating_sub(n_passing)))
         }

@@ -14,6 +14,7 @@ pub(super) struct JobText {
     /// Comments at its head, a line each.
     pub(super) remarks: Vec<String>,
     pub(super) map: Map,
+    pub(super) mass: Mass,
     pub(super) units: Option<String>,
     /// Directions of rotations that supports hold alone.
     pub(super) held_rotations: Vec<String>,
@@ -70,6 +71,13 @@ pub(super) enum Map {
     Rows,
 }
 
+/// Whether the model has a mass; statics are all that is asked of one that has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mass {
+    InFile,
+    None,
+}
+
 /// Whether the job asks for inertia relief.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Relief {
@@ -117,7 +125,9 @@ impl JobText {
             let _ = writeln!(text, "{key} = {value}");
         };
         put("stiffness", files.stiffness.clone().into());
-        put("mass", files.mass.clone().into());
+        if self.mass == Mass::InFile {
+            put("mass", files.mass.clone().into());
+        }
         if self.map == Map::Nodes {
             put("dofs", files.dofs.clone().into());
             put("nodes", files.nodes.clone().into());
@@ -144,6 +154,9 @@ impl JobText {
                 write!(text, "\n[[load]]\nname = {name}\nfile = {file}\ncolumn = {column}\nresidual = {residual}\n");
         }
         text += &self.reduction();
+        if self.mass == Mass::None {
+            text += "\n[scene]\nanalysis = \"static\"\ngravity = false\n";
+        }
         let _ = write!(text, "\n[write]\nsuperelement = {}\n", Value::from(files.superelement.clone()));
         text
     }

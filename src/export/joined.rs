@@ -10,7 +10,7 @@ use supel_runtime::{Direction, Flag, Matrix, Superelement};
 use toml::Value;
 
 use super::assumed::assumed_by_all;
-use super::job_text::{JobText, LoadColumn, Map, Modes, Relief, Selection, rows};
+use super::job_text::{JobText, LoadColumn, Map, Mass, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
 use super::model_job::{HELD_ROWS, MOVING_ROWS, held_rotations, mechanisms, method, n_modes};
 use super::strainless_motion::{gives_way, is_held_and_gives_way, rotations_held_alone};
@@ -79,13 +79,14 @@ fn left_behind(component: &Component) -> Option<String> {
         .then(|| format!("{} has {}, which the model of the whole does not have", component.name, names.join(", ")))
 }
 
-/// The digits of the matrices of the whole, or of the component that has fewest. A component that its interface just holds has no stiffness
-/// there but rounding, which is judged with the stiffness of the others.
+/// The digits of the matrices of the whole, or those that a component that has fewer states of itself. One that its interface just
+/// holds has no stiffness there but rounding, which is judged with the stiffness of the others.
 fn stated_digits(assembly: &Assembly, model: &JoinedModel) -> Result<Option<i64>> {
     let mut least = digits([&model.stiffness, &model.mass, &model.rigid].map(Mat::as_ref), &places(model))?;
     for component in &assembly.components {
         let tensors = component.superelement.tensors();
-        let [k, m, u] = [&tensors.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(unpacked);
+        let stiffness = strainless::condensed_stiffness(&component.superelement)?.stiffness;
+        let [k, m, u] = [&stiffness, &tensors.mass, &tensors.rigid_body_modes].map(unpacked);
         let own = digits([&k, &m, &u].map(Mat::as_ref), &strainless::places(&component.superelement))?
             .filter(|own| *own >= FEWEST_DIGITS);
         least = least.into_iter().chain(own).min();
@@ -150,6 +151,7 @@ fn job(assembly: &Assembly, model: &JoinedModel, digits: Option<i64>) -> Result<
     Ok(JobText {
         remarks,
         map: if model.nodes.is_empty() || without_nodes.is_some() { Map::Rows } else { Map::Nodes },
+        mass: Mass::InFile,
         units: superelements().find_map(|superelement| superelement.metadata().units.clone()),
         held_rotations: held.into_iter().collect(),
         mechanisms: mechanisms_of_whole(assembly, model)?,

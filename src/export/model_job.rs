@@ -9,14 +9,14 @@ use serde::Deserialize;
 use supel_runtime::{Coordinate, Flag, InterfaceNode, Metadata, Method, Superelement};
 
 use super::assumed::assumed;
-use super::job_text::{JobText, LoadColumn, Map, ModelFiles, Modes, Relief, Selection, rows};
+use super::job_text::{JobText, LoadColumn, Map, Mass, ModelFiles, Modes, Relief, Selection, rows};
 use super::left_behind::not_of_a_model;
 use super::names::Names;
 use super::strainless_motion::{gives_way, is_held_and_gives_way, rotations_held_alone};
 use crate::dense;
 use crate::error::{Error, Result};
 use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
-use crate::input::strainless::{Condensed, condensed_stiffness, masses, places};
+use crate::input::strainless::{Condensed, condensed_stiffness, mass_or_unit, masses, places};
 use crate::input::superelement_file::{NO_STIFFNESS, has_free_dof};
 use crate::job::{AssumesJob, Mechanisms};
 use crate::report::printable;
@@ -45,8 +45,8 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
     if let Some(why) = no_job(superelement, &condensed) {
         return Ok(Err(why));
     }
-    let tensors = superelement.tensors();
-    let matrices = [&condensed.stiffness, &tensors.mass, &tensors.rigid_body_modes].map(dense::unpacked);
+    let [stiffness, rigid] = [&condensed.stiffness, &superelement.tensors().rigid_body_modes].map(dense::unpacked);
+    let matrices = [stiffness, mass_or_unit(superelement), rigid];
     let digits = digits(matrices.each_ref().map(Mat::as_ref), &places(superelement))?;
     if digits.is_some_and(|digits| digits < FEWEST_DIGITS) {
         return Ok(Err("lets rigid-body motion pass to fewer than four digits of its stiffness"));
@@ -56,7 +56,9 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
     let mut remarks: Vec<String> = without_nodes.into_iter().map(str::to_owned).collect();
     let assumes = assumed(superelement);
     let held = if has_map { held(superelement.metadata()) } else { held_interfaces(superelement.metadata()) };
+    let mass = if superelement.tensors().mass.rows() > 0 { Mass::InFile } else { Mass::None };
     let (method, relief) = match method(superelement) {
+        _ if mass == Mass::None => ("guyan", Relief::NotAsked),
         ("mixed-interface", relief) if held.is_empty() => {
             remarks.push(HELD_IN_PART.to_owned());
             ("craig-bampton", relief)
@@ -66,6 +68,7 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
     Ok(Ok(JobText {
         remarks,
         map: if has_map { Map::Nodes } else { Map::Rows },
+        mass,
         units: superelement.metadata().units.clone(),
         held_rotations: if has_map {
             with_held_alone((superelement, &assumes), &matrices)?
@@ -97,7 +100,6 @@ pub(super) fn job(superelement: &Superelement) -> Result<std::result::Result<Job
 fn no_job(superelement: &Superelement, condensed: &Condensed) -> Option<&'static str> {
     let is_marked = |flag: &Flag| superelement.metadata().flags.contains(flag);
     let reasons = [
-        (is_marked(&Flag::StiffnessOnly), "has no mass"),
         (superelement.n_interface() == 0, "has no interface, to which it could be reduced"),
         (
             superelement.n_rigid() >= superelement.n_coordinates(),

@@ -445,3 +445,43 @@ fn a_superelement_that_one_node_holds_has_no_loose_rows() {
         }
     }
 }
+
+/// Statics of a superelement without mass: its interface condensed once more is that of the model.
+#[test]
+fn a_superelement_without_mass_is_a_model_of_statics() {
+    let place = Place::with_brick();
+    let job = |model: &str, rest: &str, output: &str| {
+        format!(
+            "model = {{ {model} }}\ninterface = [{{ name = \"hub\", nodes = [5, 15, 45], coupling = \"rigid\" }}{rest}]\n\
+             reduction = {{ method = \"guyan\" }}\nscene = {{ analysis = \"static\", gravity = false }}\n\
+             write = {{ superelement = \"{output}\" }}\n"
+        )
+    };
+    let model = "stiffness = \"K.mtx\", dofs = \"dofs.txt\", nodes = \"nodes.csv\"";
+    let foot = ", { name = \"foot\", nodes = [1, 11, 31, 41] }";
+    for (name, rest, output) in
+        [("job.toml", foot, "x.supel"), ("end.toml", ", { name = \"foot\", nodes = [1, 11, 31] }", "y.supel")]
+    {
+        place.write(name, job(model, rest, output).as_bytes());
+        supel(&["reduce", &place.text(name)]).expect(ExitCode::Done);
+    }
+    let first = place.superelement("x.supel");
+    let (second, _) = again(&place);
+    let rounding =
+        1e-10 * (0..first.n_coordinates()).fold(0.0, |max: f64, i| max.max(first.tensors().stiffness[(i, i)]));
+    let difference = |a: &Superelement, b: &Superelement| {
+        let (a, b) = (&a.tensors().stiffness, &b.tensors().stiffness);
+        assert_eq!(a.rows(), b.rows());
+        let pairs = (0..a.rows()).flat_map(|i| (0..a.rows()).map(move |j| (i, j)));
+        pairs.fold(0.0, |max: f64, at| max.max((a[at] - b[at]).abs()))
+    };
+    assert!(difference(&first, &second) <= rounding);
+    assert_eq!(second.metadata().validity.assumptions, first.metadata().validity.assumptions);
+    // One node of the foot condensed.
+    let text = String::from_utf8(place.bytes("x.job.toml")).expect("text");
+    assert!(text.contains("[1, 11, 31, 41]"), "{text}");
+    let fewer = text.replace("[1, 11, 31, 41]", "[1, 11, 31]").replace("x.again.supel", "fewer.supel");
+    place.write("fewer.toml", fewer.as_bytes());
+    supel(&["reduce", &place.text("fewer.toml")]).expect(ExitCode::Done);
+    assert!(difference(&place.superelement("fewer.supel"), &place.superelement("y.supel")) <= rounding);
+}

@@ -2,7 +2,7 @@
 
 use supel::cli::ExitCode;
 use supel_models::transform::rounded;
-use supel_models::{Inertia, Material, Model, Section, brick, frame};
+use supel_models::{Inertia, Material, Model, Section, Wall, brick, frame, shell};
 use supel_testing::cases::hinged;
 use supel_testing::place::{Place, assert_close, frequencies_hz, supel};
 
@@ -145,6 +145,50 @@ fn rows_of_a_part_hardly_held_are_known_to_digits_of_their_own() {
     let [first, second] = ["x.supel", "y.supel"].map(|name| place.superelement(name));
     // Six motions of the whole, one of sliding and three of turning.
     assert_eq!([first.n_rigid(), second.n_rigid()], [10, 10]);
+}
+
+/// Motions without energy are all that this interface can do: nothing of its stiffness is left, and the matrices tell how far the next motion
+/// is.
+#[test]
+fn a_mechanism_that_fills_its_interface_is_counted_by_the_matrices() {
+    let place = Place::with(&hinged());
+    let one = |name: &str, node: i64, dofs: &str| format!("{{ name = \"{name}\", nodes = [{node}], dofs = [{dofs}] }}");
+    let all = "\"ux\", \"uy\", \"uz\"";
+    let interfaces = [one("a", 1, all), one("b", 3, "\"uy\", \"uz\""), one("c", 4, "\"uz\""), one("d", 21, "\"uy\"")];
+    let tables = format!(
+        "interface = [{}]\nreduction = {{ method = \"herting\", modes = {{ count = 3 }} }}\n",
+        interfaces.join(", ")
+    );
+    for digits in [17, 12] {
+        reduced(&place, (&format!(", mechanisms = \"accept\", stiffness_digits = {digits}"), &tables));
+        let found = place.superelement("x.supel");
+        assert_eq!((found.n_interface(), found.n_rigid()), (7, 7), "{digits} digits");
+    }
+    // Of three digits nothing tells.
+    let text = job_text(&place, "job.toml").replace("stiffness_digits = 12", "stiffness_digits = 3");
+    place.write("job.toml", text.as_bytes());
+    let ended = supel(&["reduce", &place.text("job.toml")]);
+    assert!(ended.err.contains("E-DATA-PRECISION"), "{}{}", ended.out, ended.err);
+}
+
+/// What rigid-body motion moves alone has no stiffness but rounding, in an assembly as in the component by itself.
+#[test]
+fn an_assembly_states_the_digits_of_its_components() {
+    let wall = Wall { material: Material::STEEL_SI, thickness: 6e-4, drilling: 1e-3 };
+    let place = Place::with(&shell([4, 3], |[x, y]| [0.2 * x, 0.05 * y, 0.0], &wall));
+    let tables = "interface = [{ name = \"l\", nodes = [1, 6, 11, 16], coupling = \"rigid\", dofs = [\"ux\", \"uy\", \"uz\"] },\n\
+         { name = \"r\", nodes = [5, 10, 15, 20], coupling = \"rigid\", dofs = [\"ux\", \"uy\", \"uz\"] }]\n\
+         reduction = { method = \"rubin\", modes = { count = 6 } }\n";
+    reduced(&place, ("", tables));
+    export(&place, "matrix-market", &[]).expect(ExitCode::Done);
+    export(&place, "matrix-market", &["--mass", "x.l=0.1", "--output", &place.text("whole")]).expect(ExitCode::Done);
+    let digits = |name: &str| {
+        let text = job_text(&place, name);
+        let stated = text.lines().find_map(|line| line.strip_prefix("stiffness_digits = ")?.parse::<u32>().ok());
+        stated.unwrap_or(17)
+    };
+    assert_eq!(digits("whole.job.toml"), digits("x.job.toml"));
+    supel(&["reduce", &place.text("whole.job.toml")]).expect(ExitCode::Done);
 }
 
 /// A frame in space, of nine nodes.

@@ -3,6 +3,7 @@
 mod again;
 mod command;
 mod interface;
+mod mechanisms;
 mod modes;
 mod refused;
 mod statics;

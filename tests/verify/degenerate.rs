@@ -507,6 +507,21 @@ fn rubin_by_few_digits_agrees() {
     }
 }
 
+/// Of a mode that is the static answer to the inertia of heavy interface nodes next to nothing is left beside it, and that is rounding.
+#[test]
+fn rubin_with_a_mode_of_heavy_interface_nodes_agrees() {
+    let block = brick([6, 2, 2], [1.2, 0.55, 0.31], &Material::STEEL_SI);
+    for mass in [3e4, 5e4] {
+        let added = [1, 63].map(|node| format!("{{ node = {node}, mass = {mass} }}")).join(", ");
+        let interface = "interface = [{ name = \"i\", nodes = [1, 63] }]";
+        let reduction = "reduction = { method = \"rubin\", modes = { count = 4 } }";
+        let place = agree_by_job(&block, &format!("added_mass = [{added}]\n{interface}\n{reduction}"));
+        let ended = supel(&["verify", &place.text("x.supel"), "--json"]).expect(ExitCode::Done);
+        let audit: serde_json::Value = serde_json::from_str(&ended.out).expect("JSON");
+        assert_eq!(audit["verdict"], "pass", "{mass}: {}", ended.out);
+    }
+}
+
 /// Two nodes at one place and what joins them, without stiffness about z.
 fn joint_about_z() -> Model {
     let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());

@@ -64,7 +64,7 @@ pub(in crate::plan) fn k20(scene: &Scene<'_>, _: Option<&Facts>) -> Decision {
     match why_kept(scene) {
         Some(why) => Decision::kept(format!("{why}; columns that others span are left out by name in any case")),
         None => Decision::left_out(
-            "modes that interface, loads and gravity do not start and outputs do not see, each by name",
+            "such modes as interface, loads and gravity do not start and outputs do not see, each by name",
         ),
     }
 }
