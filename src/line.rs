@@ -133,15 +133,13 @@ pub(crate) fn with_component<T>(
 /// factorisation. Here they take one.
 pub(crate) fn foreknown(plan: &Plan, partition: &Partition, rigid: RigidBodyModes) -> Result<(Plan, RigidBodyModes)> {
     let (Reaction { rank, every, .. }, known) = known(plan, partition, &rigid)?;
-    let every = match every {
-        None if plan.job().model.mechanisms == Mechanisms::Accept => {
-            match rigid::counted_by_matrices(partition, rigid.clone()) {
-                // What the digits do not let be counted, a reduction finds in its own way.
-                Err(error) if error.class().is_of_matrices() => rigid,
-                counted => counted?.0,
-            }
-        }
-        every => every.unwrap_or(rigid),
+    if every.is_some() || plan.job().model.mechanisms != Mechanisms::Accept {
+        return Ok((known, every.unwrap_or(rigid)));
+    }
+    let every = match rigid::counted_by_matrices(partition, rigid.clone()) {
+        // What the digits do not let be counted, a reduction finds in its own way.
+        Err(error) if error.class().is_of_matrices() => return Ok((known, rigid)),
+        counted => counted?.0,
     };
     Ok((known.knowing(rigid::facts(partition, &every, rank)), every))
 }

@@ -15,9 +15,9 @@ use super::left_behind::not_of_a_model;
 use super::model_job::{HELD_ROWS, MOVING_ROWS, held_rotations, mechanisms, method, n_modes};
 use super::strainless_motion::{gives_way, is_held_and_gives_way, rotations_held_alone};
 use crate::assembly::{Assembly, Component, JoinedModel, JoinedSelection, Members, Omitted};
-use crate::dense::{self, unpacked};
+use crate::dense;
 use crate::error::Result;
-use crate::input::condensed_digits::{FEWEST_DIGITS, digits};
+use crate::input::condensed_digits::{FEWEST_DIGITS, digits, digits_of};
 use crate::input::strainless::{self, balance, lengths};
 use crate::job::Mechanisms;
 use crate::number::quantity;
@@ -84,11 +84,8 @@ fn left_behind(component: &Component) -> Option<String> {
 fn stated_digits(assembly: &Assembly, model: &JoinedModel) -> Result<Option<i64>> {
     let mut least = digits([&model.stiffness, &model.mass, &model.rigid].map(Mat::as_ref), &places(model))?;
     for component in &assembly.components {
-        let tensors = component.superelement.tensors();
         let stiffness = strainless::condensed_stiffness(&component.superelement)?.stiffness;
-        let [k, m, u] = [&stiffness, &tensors.mass, &tensors.rigid_body_modes].map(unpacked);
-        let own = digits([&k, &m, &u].map(Mat::as_ref), &strainless::places(&component.superelement))?
-            .filter(|own| *own >= FEWEST_DIGITS);
+        let own = digits_of(&component.superelement, &stiffness)?.filter(|own| *own >= FEWEST_DIGITS);
         least = least.into_iter().chain(own).min();
     }
     Ok(least)

@@ -11,12 +11,23 @@
 
 use faer::{Mat, MatRef};
 
-use super::strainless::{Place, without_rounding};
+use supel_runtime::{Matrix, Superelement};
+
+use super::strainless::{Place, mass_or_unit, places, without_rounding};
 use crate::dense;
 use crate::error::Result;
 
 /// Digits of K̂ below which a second reduction cannot tell stiffness from rounding.
 pub(crate) const FEWEST_DIGITS: i64 = 4;
+
+/// [`digits`] of a superelement, whose K̂ without rounding in rows that can do without is `stiffness`.
+///
+/// # Errors
+/// [`crate::error::Error::DenseEigen`].
+pub(crate) fn digits_of(superelement: &Superelement, stiffness: &Matrix) -> Result<Option<i64>> {
+    let [k, u] = [stiffness, &superelement.tensors().rigid_body_modes].map(dense::unpacked);
+    digits([&k, &mass_or_unit(superelement), &u].map(Mat::as_ref), &places(superelement))
+}
 
 /// The digits that K̂ has by its rigid-body motion; nothing where it has none or all.
 ///

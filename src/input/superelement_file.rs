@@ -7,12 +7,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use faer::Mat;
 use supel_runtime::{Coordinate, Flag, Matrix, Superelement, Verdict};
 
 use super::allowance::Allowance;
 use super::assembled::Collector;
-use super::condensed_digits::digits;
+use super::condensed_digits::digits_of;
 use super::digits::Digits;
 use super::file_start::FileStart;
 use super::format::{
@@ -20,10 +19,9 @@ use super::format::{
 };
 use super::member::split_member;
 use super::named::chosen;
-use super::strainless::{Condensed, condensed_stiffness, mass_or_unit, places};
+use super::strainless::{Condensed, condensed_stiffness};
 use super::unsupported_format::{PACKED_SUPERELEMENT, is_packed_superelement};
 use super::{MatrixInput, MatrixRole};
-use crate::dense;
 use crate::dofs::{Dof, DofMap, Nodes};
 use crate::error::{Error, Result};
 use crate::job::{AssumesJob, Layout, ModelJob, unseen_hz};
@@ -322,8 +320,6 @@ fn entries<'a>(matrix: &Matrix, source: &MatrixSource<'a>) -> Result<Collector<'
 
 /// The digits that rigid-body motion shows K̂ to have, no more than its values.
 fn digits_shown(superelement: &Superelement, stiffness: &Matrix, of_values: Digits) -> Result<Digits> {
-    let [k, u] = [stiffness, &superelement.tensors().rigid_body_modes].map(dense::unpacked);
-    let m = mass_or_unit(superelement);
-    let shown = digits([&k, &m, &u].map(Mat::as_ref), &places(superelement))?;
+    let shown = digits_of(superelement, stiffness)?;
     Ok(shown.map_or(of_values, |shown| Digits::condensed((shown as u32).min(of_values.significant))))
 }

@@ -35,7 +35,7 @@ pub(super) fn compared(
     for matrix in [("stiffness", &stiffness), ("mass", &mass)] {
         findings.extend(directions::compared(matrix, names)?);
     }
-    if let Some((nodes, dofs)) = nodes.zip(names.dofs) {
+    if let Some((nodes, dofs)) = nodes.zip(names.dofs).filter(|_| !cells.is_empty()) {
         let by_cells = CellGraph::of(cells, &Numbers::of(nodes, dofs, &node_of));
         findings.extend(cells::compared(&stiffness, &by_cells, names)?);
     }

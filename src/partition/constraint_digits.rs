@@ -62,8 +62,11 @@ pub(super) fn set_right(motions: &Motions<'_>, given: &ConstraintRows) -> Result
         // their own explain.
         let mut right = None;
         for least in [OF_DOUBLES, EXACT] {
-            let found = within_digits(motions, constraint, (&half_units, least))?;
-            right = right.or(found.filter(|right| motions.resisted(right, EXACT).is_none()));
+            right = within_digits(motions, constraint, (&half_units, least))?
+                .filter(|right| motions.resisted(right, EXACT).is_none());
+            if right.is_some() {
+                break;
+            }
         }
         let Some(right) = right else { continue };
         let of_rows = constraint.terms.iter().zip(&half_units).map(|((row, _), half_unit)| (*row, *half_unit));

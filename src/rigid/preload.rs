@@ -89,11 +89,11 @@ fn refuse_negative(
             let cause = match (partition.model.n_held, turns_patches) {
                 (0, false) => "compression has it while nothing holds the component",
                 (0, true) => {
-                    "compression has it while nothing holds the component, or a rigid patch that internal forces pass beside its origin"
+                    "compression has it while nothing holds the component, or the origin of a rigid patch is off the line of its internal forces"
                 }
                 (_, false) => "the component buckles as it is held",
                 (_, true) => {
-                    "the component buckles as it is held, or internal forces pass a rigid patch beside its origin"
+                    "the component buckles as it is held, or the origin of a rigid patch is off the line of its internal forces"
                 }
             };
             Err(Error::NegativePreload { cause, energy: energy / mass, noise: noise / mass })

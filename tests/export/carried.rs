@@ -164,7 +164,21 @@ fn a_mechanism_that_fills_its_interface_is_counted_by_the_matrices() {
         let found = place.superelement("x.supel");
         assert_eq!((found.n_interface(), found.n_rigid()), (7, 7), "{digits} digits");
     }
-    // Of three digits nothing tells.
+    // Held along an edge it has two such motions, no more than a body may have, and of five digits nothing tells.
+    let held = format!(
+        "interface = [{}, {}]\nfixed = [{{ nodes = [1, 4] }}]\nreduction = {{ method = \"herting\", modes = {{ count = 3 }} }}\n",
+        one("c", 3, "\"uz\""),
+        one("d", 15, "\"uy\"")
+    );
+    let keys = |digits: u32| format!(", mechanisms = \"accept\", stiffness_digits = {digits}");
+    reduced(&place, (&keys(9), &held));
+    assert_eq!(place.superelement("x.supel").n_rigid(), 2);
+    let few = job_text(&place, "job.toml").replace("stiffness_digits = 9", "stiffness_digits = 5");
+    place.write("few.toml", few.as_bytes());
+    let ended = supel(&["reduce", &place.text("few.toml")]);
+    assert!(ended.err.contains("E-DATA-PRECISION"), "{}{}", ended.out, ended.err);
+    // Of three digits nothing tells of the free one.
+    reduced(&place, (&keys(12), &tables));
     let text = job_text(&place, "job.toml").replace("stiffness_digits = 12", "stiffness_digits = 3");
     place.write("job.toml", text.as_bytes());
     let ended = supel(&["reduce", &place.text("job.toml")]);

@@ -507,7 +507,7 @@ fn rubin_by_few_digits_agrees() {
     }
 }
 
-/// Of a mode that is the static answer to the inertia of heavy interface nodes next to nothing is left beside it, and that is rounding.
+/// A mode of heavy interface nodes is the static answer to their inertia: what it has besides is small, and known to few digits.
 #[test]
 fn rubin_with_a_mode_of_heavy_interface_nodes_agrees() {
     let block = brick([6, 2, 2], [1.2, 0.55, 0.31], &Material::STEEL_SI);

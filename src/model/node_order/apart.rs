@@ -25,6 +25,8 @@ pub(super) struct Apart {
     pub(super) moved: Vec<u32>,
     /// The nodes that the second account lacks neighbours of, which the first has, ascending.
     pub(super) lacking: Vec<u32>,
+    /// How many nodes the first account couples with anything.
+    pub(super) n_known: usize,
     /// Pairs of nodes by each account, each counted twice.
     pub(super) n_pairs: [usize; 2],
 }
@@ -61,6 +63,7 @@ impl Apart {
             nodes: which(&|node| node.counts.iter().all(|count| 2 * node.n_shared < *count)),
             moved: which(&|node| is_moved && node.counts != [node.n_shared; 2]),
             lacking: which(&|node| node.n_shared < node.counts[0]),
+            n_known: is_known.iter().filter(|is_known| **is_known).count(),
             n_pairs: [0, 1].map(|account| compared.iter().map(|node| node.counts[account]).sum()),
         }
     }

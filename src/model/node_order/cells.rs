@@ -33,11 +33,9 @@ const SHOWN_NODES: usize = 3;
 /// [`Error::CellsOfOthers`] where more than half of all nodes of cells are apart, where K is that of the mesh in another order, and where
 /// two nodes were exchanged. A node that is coupled as another one is a finding.
 pub(super) fn compared(stiffness: &Couplings, cells: &CellGraph, names: RowNames<'_>) -> Result<Option<Finding>> {
-    let by_stiffness = |node: u32| stiffness.others(node).collect::<Vec<u32>>();
-    let coupled = |node: u32| if by_stiffness(node).is_empty() { Vec::new() } else { cells.neighbours(node) };
-    let n_nodes = stiffness.n_nodes();
-    let apart = Apart::of(n_nodes, coupled, by_stiffness);
-    let n_nodes = (0..n_nodes as u32).filter(|node| !coupled(*node).is_empty()).count();
+    let coupled = |node: u32| if stiffness.is_coupled(node) { cells.neighbours(node) } else { Vec::new() };
+    let apart = Apart::of(stiffness.n_nodes(), coupled, |node| stiffness.others(node).collect());
+    let n_nodes = apart.n_known;
     let graphs = Graphs { stiffness, cells };
     let (strayed, is_proof) = if !apart.moved.is_empty() {
         (apart.moved, true)
@@ -77,8 +75,7 @@ impl Graphs<'_> {
         let without = |own: &[u32], others: &[u32]| -> Vec<u32> {
             own.iter().copied().filter(|node| others.binary_search(node).is_err()).collect()
         };
-        let has_rows = |node: &u32| self.stiffness.others(*node).next().is_some();
-        let known: Vec<u32> = by_cells.iter().copied().filter(has_rows).collect();
+        let known: Vec<u32> = by_cells.iter().copied().filter(|node| self.stiffness.is_coupled(*node)).collect();
         [without(&known, &by_stiffness), without(&by_stiffness, &by_cells)]
     }
 

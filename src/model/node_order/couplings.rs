@@ -19,7 +19,7 @@ pub(super) struct Couplings {
 }
 
 impl Couplings {
-    /// Those of a matrix; `node_of` has the number of the node of each row, `dofs` their directions where they are known.
+    /// Couplings of a matrix. `node_of` has the number of the node of each row, `dofs` its direction, where known.
     pub(super) fn of(matrix: &SparseMatrix, node_of: &[u32], dofs: Option<&[Option<Dof>]>) -> Self {
         let n_nodes = node_of.iter().max().map_or(0, |max| *max as usize + 1);
         let mut rows = vec![Vec::new(); n_nodes];
@@ -68,6 +68,11 @@ impl Couplings {
     /// The other nodes coupled with a node, ascending.
     pub(super) fn others(&self, node: u32) -> impl Iterator<Item = u32> {
         self.at(node).iter().map(|(other, _)| *other).filter(move |other| *other != node)
+    }
+
+    /// Whether a node is coupled with another one.
+    pub(super) fn is_coupled(&self, node: u32) -> bool {
+        self.others(node).next().is_some()
     }
 
     /// The nodes coupled with a node by some directions, ascending.

@@ -57,3 +57,38 @@ pub(super) fn compared([stiffness, mass]: [&Couplings; 2], names: RowNames<'_>) 
     let at = proof.iter().take(SHOWN_NODES).filter_map(name_of).collect::<Vec<_>>().join(", ");
     Ok(has_nodes.then_some(Finding::MassCouplesOthers { n_apart: proof.len(), n_nodes, at }))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dofs::{Direction, Dof, FileRows};
+    use crate::sparse::SparseMatrix;
+
+    const N: usize = 8;
+
+    /// Couplings of a matrix of eight rows, each that of a node.
+    fn couplings(pairs: &[(usize, usize)], dofs: &[Option<Dof>]) -> Couplings {
+        let (mut pointers, mut columns, mut values) = (vec![0], Vec::new(), Vec::new());
+        for row in 0..N {
+            let is_coupled = |col: &usize| *col == row || pairs.contains(&(row, *col)) || pairs.contains(&(*col, row));
+            columns.extend((0..N).filter(is_coupled).map(|col| col as u32));
+            values.resize(columns.len(), 1.0);
+            pointers.push(columns.len());
+        }
+        let nodes: Vec<u32> = (0..N as u32).collect();
+        Couplings::of(&SparseMatrix::new((N, N), pointers, columns, values), &nodes, Some(dofs))
+    }
+
+    /// The mass of a fluid between pairs of nodes that are no neighbours couples fewer than the elements do.
+    #[test]
+    fn a_mass_of_few_pairs_is_sound() {
+        let dofs: Vec<Option<Dof>> = (0..N as i64).map(|node| Some(Dof { node, direction: Direction::Ux })).collect();
+        let (rows, line) = (FileRows::default(), (1..N).map(|i| (i - 1, i)).collect::<Vec<_>>());
+        let names = RowNames { rows: &rows, dofs: Some(&dofs) };
+        let natural = couplings(&line, &dofs);
+        let of_fluid = couplings(&[(0, 4), (1, 5), (2, 6), (3, 7)], &dofs);
+        assert!(matches!(compared([&natural, &of_fluid], names), Ok(None)));
+        let another = couplings(&[(0, 4), (4, 1), (1, 5), (5, 2), (2, 6), (6, 3), (3, 7)], &dofs);
+        assert!(matches!(compared([&natural, &another], names), Err(Error::MassInAnotherOrder { .. })));
+    }
+}
