@@ -124,6 +124,16 @@ impl<'a> Gathered<'a> {
         Ok(())
     }
 
+    /// Takes up cells of one kind that is not read, each with so many nodes; they have no faces.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn add_table(&mut self, n_each: usize, nodes: &[usize]) -> Result<()> {
+        if let Some(list) = &mut self.list {
+            self.claim.add(INDEX * nodes.len() as u64)?;
+            list.tables.push((n_each, nodes.iter().map(|node| *node as u32).collect()));
+        }
+        Ok(())
+    }
+
     fn keep(&mut self, (patch, cell): (u32, Cell), nodes: &[usize], face: Face) -> Result<()> {
         let mut corners: Vec<usize> = Vec::with_capacity(face.corners.len());
         for corner in &face.corners {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::faces::CellList;
 use super::format::ReadCells;
 use super::note::InputNote;
 use super::{Allowance, formats};
@@ -18,8 +19,8 @@ pub struct MeshCells {
     pub nodes: Vec<u32>,
 }
 
-/// The cells of the file of the nodes, as far as their kinds are known; none where its format has none, and where its layout is not read or
-/// they are damaged, which a note says.
+/// The cells of the file of the nodes, of known kinds or of any that a table has; none where its format has none, and where its layout is
+/// not read or they are damaged, which a note says.
 ///
 /// # Errors
 /// A file that cannot be read or changes meanwhile, more data than `allowance` has room for.
@@ -35,10 +36,10 @@ pub(super) fn mesh_cells(
     let unread_note = |why: String| InputNote::CellsUnread { path: path.to_owned(), why };
     match unchanged(path, || format.read_cells(path, &nodes.coordinates, allowance)) {
         Ok(ReadCells { cells, unread }) => {
-            let unread = unread.filter(|_| cells.runs.is_empty());
+            let found = listed(cells);
+            let unread = unread.filter(|_| found.is_empty());
             notes.extend(unread.map(|what| unread_note(format!("supel does not read {what}"))));
-            let runs = cells.runs.into_iter();
-            Ok(runs.map(|(cell, nodes)| MeshCells { n_nodes: cell.n_nodes(), nodes }).collect())
+            Ok(found)
         }
         // Nothing else of the model needs them.
         Err(error) if error.class() == ErrorClass::InputData => {
@@ -47,4 +48,11 @@ pub(super) fn mesh_cells(
         }
         Err(error) => Err(error),
     }
+}
+
+fn listed(cells: CellList) -> Vec<MeshCells> {
+    let of_runs = cells.runs.into_iter().map(|(cell, nodes)| MeshCells { n_nodes: cell.n_nodes(), nodes });
+    #[cfg(feature = "hdf5")]
+    let of_runs = of_runs.chain(cells.tables.into_iter().map(|(n_nodes, nodes)| MeshCells { n_nodes, nodes }));
+    of_runs.collect()
 }

@@ -7,11 +7,12 @@
 
 use std::borrow::Cow;
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits, MAX_EXCUSE};
 use super::evidence::Evidence;
 use super::limits::UNKNOWN;
+use super::repeated;
 use super::residual::{AT_REST, Residuals, Rows, Worst};
 use crate::dense::{self, NOISE_FACTOR};
 use crate::eigen::{MassOrthogonality, ModeError, NOTICED_BAR, RESIDUAL_FLOOR, mass_orthogonality};
@@ -73,26 +74,40 @@ impl Pairs {
             inertia_terms: 1.0,
             coupling: (0.0, (0, 0)),
         };
-        // The memory needed in addition to the shapes is five such panels.
+        let runs = repeated::runs(&modes.lambda);
+        // The memory needed in addition to the shapes is five such panels, or seven times the longest run.
         for panel in panels(modes.count()) {
             let (start, end) = (panel.start, panel.end);
             let shapes = all.as_ref().as_ref().get(.., panel.clone());
-            let lambda = &modes.lambda[panel];
-            let Residuals { forces, residual, terms, inertia_terms } = rows.residuals(shapes, lambda);
-            found.inertia_terms = found.inertia_terms.max(dense::worst(inertia_terms));
-            for (j, lambda) in lambda.iter().enumerate() {
-                let (x, r) = (dense::column(shapes, j), dense::column(residual.as_ref(), j));
-                let at = rows.norms.largest(r);
-                found.backward.take(rows.norms.backward_error(*lambda, x, r), start + j, at);
-                let (error, at) = rows.componentwise(*lambda, x, r, dense::column(terms.as_ref(), j));
-                found.componentwise.take(error, start + j, at);
-                let largest = x.iter().zip(&rows.norms.scale).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
-                found.concentration = found.concentration.max(rows.norms.scaled_norm(x) / largest);
-            }
-            let energies = dense::gram(all.as_ref().as_ref().subcols(0, end), forces.as_ref());
+            let found_here = rows.residuals(shapes, &modes.lambda[panel]);
+            found.inertia_terms = found.inertia_terms.max(dense::worst(found_here.inertia_terms.iter().copied()));
+            let alone = (start..end).filter(|mode| !runs.iter().any(|run| run.contains(mode)));
+            alone.for_each(|mode| found.take(&rows, (mode, modes.lambda[mode]), (shapes, mode - start), &found_here));
+            let energies = dense::gram(all.as_ref().as_ref().subcols(0, end), found_here.forces.as_ref());
             found.couple(&energies, start, &modes.lambda);
         }
+        for run in runs {
+            let shapes = all.as_ref().as_ref().get(.., run.clone());
+            let of_space = repeated::residuals(&rows, modes, run.clone(), shapes);
+            run.enumerate().for_each(|(j, mode)| found.take(&rows, (mode, modes.lambda[mode]), (shapes, j), &of_space));
+        }
         found
+    }
+
+    /// Takes in a mode with its λ, in a column of some shapes and of what they leave.
+    fn take(
+        &mut self,
+        rows: &Rows<'_>,
+        (mode, lambda): (usize, f64),
+        (shapes, j): (MatRef<'_, f64>, usize),
+        Residuals { residual, terms, .. }: &Residuals,
+    ) {
+        let (x, r) = (dense::column(shapes, j), dense::column(residual.as_ref(), j));
+        self.backward.take(rows.norms.backward_error(lambda, x, r), mode, rows.norms.largest(r));
+        let (error, at) = rows.componentwise(lambda, x, r, dense::column(terms.as_ref(), j));
+        self.componentwise.take(error, mode, at);
+        let largest = x.iter().zip(&rows.norms.scale).fold(0.0f64, |max, (x, d)| max.max((x / d).abs()));
+        self.concentration = self.concentration.max(rows.norms.scaled_norm(x) / largest);
     }
 
     /// Takes in the columns of XᵀKX from `start` on.
@@ -108,7 +123,7 @@ impl Pairs {
     }
 }
 
-/// The largest relative gap within a run of modes whose error bars meet: rounding mixes their shapes, and a mixture of two eigenvectors
+/// The largest relative gap within a run of modes that have λ of their own and whose error bars meet: rounding mixes their shapes, and a mixture of two eigenvectors
 /// leaves a residual of that share of λ. Digits that the data lack mix nothing, for the eigensolver has the matrices as they are.
 fn mixed_by_rounding(evidence: &Evidence<'_>) -> f64 {
     if evidence.partition.has_few_digits() {

@@ -75,7 +75,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     checks.push(mass::preserved(evidence));
     if evidence.rigid.is_classical {
         let m_f = evidence.reduction.rigid_body_mass.as_ref();
-        let precision = evidence.partition.precision.mass.share;
+        let precision = mass::precision(evidence);
         checks.push(mass::of_a_body(m_f, precision));
         checks.extend(mass::of_inertia(m_f, precision, mass::extent(evidence.partition)));
     }

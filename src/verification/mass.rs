@@ -81,6 +81,17 @@ pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, precision: f64) -> Check {
     }
 }
 
+/// How well M is known in the six unit motions, relative to the mass and the inertia that it has there. Where entries are known to a last digit
+/// that all of them share, small ones of rotations may have none, and are nothing beside those of translations.
+pub(super) fn precision(evidence: &Evidence<'_>) -> f64 {
+    let share = evidence.partition.precision.mass.share;
+    let Some(noise) = evidence.partition.mass_noise(evidence.rigid.modes.as_ref().get(.., ..NAMES.len())) else {
+        return share;
+    };
+    let m_f = &evidence.reduction.rigid_body_mass;
+    dense::worst(noise.iter().enumerate().map(|(j, noise)| noise / m_f[(j, j)])).min(share)
+}
+
 /// Share of the mean moment of inertia that is worth a look, and share that fails: of a part that far from the origin M has no inertia.
 const INERTIA_OPEN: [f64; 2] = [1e-3, 1e-2];
 

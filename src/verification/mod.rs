@@ -26,6 +26,7 @@ mod penalty;
 pub mod preservation;
 mod probes;
 mod reduced;
+mod repeated;
 mod residual;
 mod rigid_body;
 mod rigid_motion;

@@ -13,7 +13,7 @@ use faer::{Mat, MatRef};
 use super::evidence::Evidence;
 use crate::dense;
 use crate::eigen::Equilibrated;
-use crate::sparse::{Pencil, energies_of_terms, product_and_terms};
+use crate::sparse::{Pencil, energies_of_terms, product, product_and_terms};
 
 /// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a
 /// row of smaller terms than this could not keep within 10⁻¹¹ of them (M-02).
@@ -52,6 +52,11 @@ impl<'a> Rows<'a> {
             }
         }
         Residuals { forces, residual, terms, inertia_terms }
+    }
+
+    /// M x.
+    pub(super) fn momenta(&self, x: MatRef<'_, f64>) -> Mat<f64> {
+        product(self.pencil.mass, x)
     }
 
     /// max ω_i over the rows that have a residual, and the row it is reached at.

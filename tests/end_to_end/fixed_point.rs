@@ -8,8 +8,9 @@ use std::fmt::Write as _;
 
 use supel::cli::ExitCode;
 use supel::sparse::{Leading, Rounding, SparseMatrix};
-use supel_models::transform::{scaled, supported};
-use supel_models::{Family, Material, Model, Part, brick};
+use supel_models::model::{dot, multiply};
+use supel_models::transform::{scaled, supported, translated};
+use supel_models::{Family, Material, Model, Part, Wall, brick, shell};
 
 use crate::few_digits::Found;
 use crate::place::{Place, supel};
@@ -251,4 +252,31 @@ fn rounded_whole_numbers_of_all_sizes_are_in_fixed_point() {
         supel::input::digits_of(&(0..5000).map(|k| 1e9 * value(k)).collect::<Vec<f64>>()),
         supel::input::Digits::DOUBLE
     );
+}
+
+/// Entries of rotations have three digits, and are nothing in the inertia of a plate beside the origin of its coordinates.
+#[test]
+fn fixed_decimals_leave_the_inertia_of_a_plate_known() {
+    let wall = Wall { material: Material::STEEL_SI, thickness: 0.01, drilling: 1e-3 };
+    let model = shell([6, 3], |[x, y]| [x, 0.4 * y, 0.0], &wall);
+    let decimals = |value: f64| format!("{value:.8}");
+    let interface = format!("{{ name = \"edge\", nodes = {:?}, coupling = \"rigid\" }}", model.groups["XMIN"]);
+    let held = Held { name: "plate", model, interface };
+    let texts = printed(&held.model, [&full, &decimals]);
+    let (place, _) = verified(&held, &held.model, texts.each_ref().map(String::as_str), "");
+    let report = place.report("x.report.json");
+    let checks = report["body"]["checks"].as_array().expect("checks");
+    let inertia = checks.iter().find(|check| check["name"] == "inertia about the centre is known").expect("M-16");
+    assert_eq!(inertia["verdict"], "pass", "{inertia}");
+    // What the roundings make of the moments about the centre is less than the check says.
+    let centred = translated(&held.model, [-0.5, -0.2, 0.0]);
+    let rotations = centred.rigid_body_modes()[3..].to_vec();
+    let rounded: Vec<Entry> =
+        centred.mass.iter().map(|(i, j, value)| (*i, *j, decimals(*value).parse().expect("a number"))).collect();
+    let moment = |entries: &[Entry], rotation: &[f64]| dot(rotation, &multiply(entries, rotation));
+    let exact: Vec<f64> = rotations.iter().map(|rotation| moment(&centred.mass, rotation)).collect();
+    let off = rotations.iter().zip(&exact).map(|(rotation, exact)| (moment(&rounded, rotation) - exact).abs());
+    let off = off.fold(0.0, f64::max) / (exact.iter().sum::<f64>() / 3.0);
+    let said = inertia["value"].as_f64().expect("a number");
+    assert!(0.0 < off && off <= said, "{off:e}, said {said:e}");
 }

@@ -3,9 +3,51 @@
 use faer::Mat;
 use supel::job::{Coupling, InterfaceJob, Method, NodeSelection};
 use supel::modes::Retained;
+use supel::verification::Evidence;
+use supel::verification::check::Verdict;
+use supel_models::Model;
 use supel_models::springs::springs;
 
-use crate::evidence::with_model;
+use crate::evidence::{checks, line, with_model};
+
+/// A pendulum on a free body whose springs are 10¹² times as stiff, and two on another such body.
+///
+/// The first pulls its body along, so that terms cancel in its λ = k (1/m + 1/Σm_b), which is known to about 10⁻⁷. The two swing against each
+/// other at a λ that is known to its rounding, and nearer to the first than 10⁻⁷.
+fn nearly_one_frequency() -> Model {
+    let bodies: Vec<f64> = (1..=5).map(|i| 1.0 + 0.1 * f64::from(i).sin()).collect();
+    let (m, k) = (0.05 * std::f64::consts::PI / 3.0, 2.0 * std::f64::consts::PI / 3.0);
+    let lambda = k * (1.0 / m + 1.0 / bodies.iter().sum::<f64>());
+    let masses = [bodies.clone(), bodies, vec![m; 3]].concat();
+    let mut between: Vec<(u32, u32, f64)> = [0, 1, 2, 3, 5, 6, 7, 8].map(|row| (row, row + 1, 1e12 * k)).to_vec();
+    let swings = m * lambda * (1.0 + 1e-8);
+    between.extend([(4, 10, k), (9, 11, swings), (9, 12, swings)]);
+    springs(&masses, &[], &between)
+}
+
+#[test]
+fn modes_that_rounding_cannot_tell_apart_are_judged_as_their_space() {
+    let ends = InterfaceJob::new("ends", NodeSelection::Rows { rows: vec![0, 5] }, Coupling::Direct);
+    with_model(&nearly_one_frequency(), &[ends], (Method::Herting, 3), |evidence| {
+        let seen = |retained: &Retained| {
+            let checks = checks(&Evidence { retained, ..evidence });
+            let of_pairs = checks.iter().filter(|check| ["M-01", "M-02"].contains(&check.id));
+            of_pairs.map(|check| (check.verdict() > Verdict::Pass, line(check))).collect::<Vec<_>>()
+        };
+        let sound = evidence.retained;
+        assert_eq!(sound.modes.lambda[0], sound.modes.lambda[1], "taken for one");
+        assert!(seen(sound).iter().all(|(is_seen, _)| !is_seen), "{:?}", seen(sound));
+        // A λ farther off than its bar says, and a space that another mode has a part in.
+        let mut off = sound.clone();
+        let bar = off.modes.errors[0].data_bar;
+        off.modes.lambda[..2].iter_mut().for_each(|lambda| *lambda *= 1.0 + 100.0 * bar);
+        assert!(seen(&off).iter().all(|(is_seen, _)| *is_seen), "{:?}", seen(&off));
+        let mut mixed = sound.clone();
+        let shapes = &mut mixed.modes.shapes;
+        (0..shapes.nrows()).for_each(|row| shapes[(row, 1)] += 1e-6 * shapes[(row, 2)]);
+        assert!(seen(&mixed).iter().all(|(is_seen, _)| *is_seen), "{:?}", seen(&mixed));
+    });
+}
 
 /// Two pendulums on a body that is held: they swing with one frequency. One against the other they do not pull at the body, side by side they do.
 #[test]

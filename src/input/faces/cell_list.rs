@@ -7,6 +7,9 @@ use super::cell::Cell;
 pub(in super::super) struct CellList {
     /// Cells of one kind that follow each other, with the nodes of each.
     pub(in super::super) runs: Vec<(Cell, Vec<u32>)>,
+    /// Cells whose kind is not read: how many nodes each of a table has, with the nodes of all.
+    #[cfg(feature = "hdf5")]
+    pub(in super::super) tables: Vec<(usize, Vec<u32>)>,
 }
 
 impl CellList {

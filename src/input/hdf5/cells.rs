@@ -1,8 +1,8 @@
 //! Cells of a mesh in one of the formats that live in HDF5, as far as the faces of patches need them.
 //!
 //! A mesh with cells of a kind that is not known here, polygons and polyhedra among them, tells nothing of outer faces: then no face
-//! is known, and the report says which kind it is. Neither is one of an `.hmf`, whose kinds of cells are texts of attributes, which
-//! are not read.
+//! is known, and the report says which kind it is. Neither is one of Exodus and of an `.hmf`, whose kinds of cells are texts of
+//! attributes, which are not read: of their tables of cells it is known which nodes each cell has.
 
 use super::dataset::Dataset;
 use super::group::Group;
@@ -46,6 +46,22 @@ pub(super) fn add(
         faces.add(cell, &nodes)?;
     }
     Ok(())
+}
+
+/// Fewer nodes are a point or a line, which are no cells.
+const LEAST_NODES: usize = 3;
+
+/// Takes up a table with one row of nodes for each cell, of a kind that is not read; `first` is the number of the first node. Without
+/// rows of one length, as polyhedra have none, it is no such table.
+pub(super) fn add_table(cells: &mut Gathered<'_>, table: &Dataset<'_>, first: i64) -> Result<()> {
+    let [_, n_each] = table.shape()?[..] else { return Ok(()) };
+    if n_each < LEAST_NODES {
+        return Ok(());
+    }
+    let n_nodes = cells.n_nodes();
+    let index = |(position, number): (usize, &i64)| table.checked_index(position, *number, first, n_nodes);
+    let nodes = table.integers()?.iter().enumerate().map(index).collect::<Result<Vec<usize>>>()?;
+    cells.add_table(n_each, &nodes)
 }
 
 /// The error for numbers that do not fill cells, or not as many as the file states.

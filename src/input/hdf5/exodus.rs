@@ -1,9 +1,12 @@
 //! Exodus in netCDF-4, which is HDF5: nodes, sets of nodes and blocks of elements.
 //!
-//! The kinds of elements are texts of attributes, which are not read, so that no face is known. Classic netCDF is no HDF5.
+//! The kinds of elements are texts of attributes, which are not read, so that no face is known; which nodes each element has is. Classic
+//! netCDF is no HDF5.
 
 use std::collections::BTreeMap;
 
+use super::cells::add_table;
+use super::dataset::Dataset;
 use super::group::{Group, Member};
 use super::mesh::{Mesh, points};
 use crate::error::Result;
@@ -68,8 +71,7 @@ fn groups(
     let names = root.find_dataset(names)?.map(|names| names.short_names()).transpose()?.unwrap_or_default();
     let numbers = root.find_dataset(numbers)?.map(|numbers| numbers.integers()).transpose()?.unwrap_or_default();
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
-    for at in 0.. {
-        let Some(members) = root.find_dataset(&format!("{dataset}{}", at + 1))? else { break };
+    for (at, members) in (0..).zip(numbered(root, dataset)?) {
         let index = |(position, number): (usize, &i64)| members.checked_index(position, *number, 1, n_nodes);
         let members = members.integers()?.iter().enumerate().map(index).collect::<Result<Vec<usize>>>()?;
         let own = || format!("{kind} {}", numbers.get(at).copied().unwrap_or(at as i64 + 1));
@@ -83,7 +85,19 @@ fn groups(
     Ok(groups)
 }
 
-/// The kinds of elements are not read.
-pub(super) fn read_cells(_: &Group<'_>, _: &mut Gathered<'_>) -> Result<Known> {
-    Ok(Known::Not("blocks of elements in the layout of Exodus".to_owned()))
+/// The datasets that are numbered from one.
+fn numbered<'a>(root: &Group<'a>, name: &str) -> Result<Vec<Dataset<'a>>> {
+    let mut found = Vec::new();
+    while let Some(dataset) = root.find_dataset(&format!("{name}{}", found.len() + 1))? {
+        found.push(dataset);
+    }
+    Ok(found)
+}
+
+/// Blocks of elements without their kinds.
+pub(super) fn read_cells(root: &Group<'_>, cells: &mut Gathered<'_>) -> Result<Known> {
+    for block in numbered(root, "connect")? {
+        add_table(cells, &block, 1)?;
+    }
+    Ok(Known::Not("the kinds of elements in the layout of Exodus".to_owned()))
 }

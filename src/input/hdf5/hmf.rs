@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::attribute_groups::tags_of;
+use super::cells::add_table;
 use super::dataset::Dataset;
 use super::group::{Group, Member};
 use super::mesh::{Mesh, points_of_rows};
@@ -35,19 +36,22 @@ pub(super) fn read(root: &Group<'_>) -> Result<Mesh> {
     Ok(Mesh { labels: None, coordinates, source: geometry.name().to_owned(), groups })
 }
 
-/// The nodes of the cells of each group. Cells are numbered through all tables, in the order of the numbers in their names.
+/// The tables of cells, in the order of the numbers in their names.
+fn tables<'a>(grid: &Group<'a>) -> Result<Vec<Dataset<'a>>> {
+    let number = |name: &str| name.strip_prefix("Topology").and_then(|number| number.parse::<usize>().ok());
+    let mut numbers: Vec<usize> = grid.members()?.iter().filter_map(|(name, _)| number(name)).collect();
+    numbers.sort_unstable();
+    numbers.iter().map(|number| grid.dataset(&format!("Topology{number}"))).collect()
+}
+
+/// The nodes of the cells of each group. Cells are numbered through all tables.
 fn cell_groups(
     grid: &Group<'_>,
     tags: &BTreeMap<String, Vec<i64>>,
     n_nodes: usize,
 ) -> Result<BTreeMap<String, Vec<usize>>> {
-    let members = grid.members()?;
-    let number = |name: &str| name.strip_prefix("Topology").and_then(|number| number.parse::<usize>().ok());
-    let mut tables: Vec<usize> = members.iter().filter_map(|(name, _)| number(name)).collect();
-    tables.sort_unstable();
     let mut nodes_of: Vec<Vec<usize>> = Vec::new();
-    for table in tables {
-        let dataset = grid.dataset(&format!("Topology{table}"))?;
+    for dataset in tables(grid)? {
         let n_each = dataset.shape()?.get(1).copied().unwrap_or(1).max(1);
         let numbers = dataset.integers()?;
         let index = |(position, number): (usize, &i64)| dataset.checked_index(position, *number, 0, n_nodes);
@@ -64,7 +68,10 @@ fn cell_groups(
     Ok(groups.collect())
 }
 
-/// The kinds of cells are texts of attributes, which are not read.
-pub(super) fn read_cells(_: &Group<'_>, _: &mut Gathered<'_>) -> Result<Known> {
-    Ok(Known::Not("a table of cells in the layout of .hmf".to_owned()))
+/// Tables of cells without their kinds, which are texts of attributes that are not read.
+pub(super) fn read_cells(root: &Group<'_>, cells: &mut Gathered<'_>) -> Result<Known> {
+    for table in tables(&root.group(GRID)?)? {
+        add_table(cells, &table, 0)?;
+    }
+    Ok(Known::Not("the kinds of cells in the layout of .hmf".to_owned()))
 }
