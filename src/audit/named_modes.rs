@@ -60,7 +60,7 @@ pub(super) fn residual(content: &Content<'_>) -> Option<Check> {
     for (slot, mode) in modes {
         let q = dense::column(amplitudes.as_ref(), slot);
         let (error, judged) = (backward_error(content, content.lambda[mode], q), judged(slot));
-        if dense::worse(severity(error, judged), severity(worst.0, worst.1)) {
+        if dense::worse(judged.severity(error), worst.1.severity(worst.0)) {
             worst = (error, judged, Some(format!("mode {}", mode + 1)));
         }
     }
@@ -74,11 +74,6 @@ pub(super) fn residual(content: &Content<'_>) -> Option<Check> {
         fail_above,
         worst: at,
     })
-}
-
-/// Above two where an error fails, above one where it warns.
-fn severity(error: f64, Judged { limits, fail_above }: Judged) -> f64 {
-    if error <= limits.value() { error / limits.value() } else { 1.0 + error / fail_above }
 }
 
 /// What rounding of the mixing C makes of the amplitudes q of each named column, relative to the column: A = C⁻¹ is known to ε|A||C||A|.

@@ -24,4 +24,5 @@ pub use dynamic::{DynamicColumns, accelerated_columns, expansion_columns, inerti
 pub(crate) use residual_vectors::ANSWERED;
 pub use residual_vectors::static_answers;
 pub use retained_columns::retained_columns;
+pub(crate) use rounding::INDEPENDENT;
 pub(crate) use rounding::clear_unloaded;

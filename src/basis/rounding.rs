@@ -20,7 +20,7 @@ use crate::sparse::{absolute_energy, panels, product};
 
 /// Length a unit column must keep after the columns before it are taken out. Healthy bases keep 10⁻³ to 10⁻²; at 10⁻⁸
 /// half the digits of the column are rounding.
-pub(super) const INDEPENDENT: f64 = 1e-8;
+pub(crate) const INDEPENDENT: f64 = 1e-8;
 /// Share of the inertia of a motion, as a square, that rounding of the motion makes: a component is known to ε of the whole.
 const UNKNOWN: f64 = (NOISE_FACTOR * f64::EPSILON) * (NOISE_FACTOR * f64::EPSILON);
 

@@ -147,7 +147,12 @@ pub(super) fn fit_matrices(
         return Ok((extend(stiffness, n_mass, notes), mass));
     }
     if n_mass < n_stiffness && mass_order == OrderSource::LargestIndex {
-        return Ok((stiffness, extend(mass, n_stiffness, notes)));
+        let mass = extend(mass, n_stiffness, notes);
+        notes.extend(ends_early(&stiffness.matrix, &mass));
+        return Ok((stiffness, mass));
+    }
+    if n_stiffness == n_mass && mass_order == OrderSource::Labels {
+        notes.extend(ends_early(&stiffness.matrix, &mass));
     }
     if n_stiffness != n_mass {
         let (stiffness, mass) = (stiffness.path, mass.path);
@@ -172,6 +177,21 @@ pub(super) fn take_notes(matrix: ReadMatrix, notes: &mut Vec<InputNote>) -> (Mat
         notes.push(InputNote::Mirrored { path: input.path.clone(), given: input.notes.given });
     }
     (input, order)
+}
+
+/// A mass without entries from some row on, where K couples one of these rows with others of them alone: an element without mass. A file that
+/// states no size and was cut short looks so. Nodes that single springs and rigid parts have at the end of a model are coupled with others.
+fn ends_early(stiffness: &SparseMatrix, mass: &MatrixInput) -> Option<InputNote> {
+    let n = stiffness.rows();
+    let has_mass = |row: &usize| mass.matrix.outer_view(*row).is_some_and(|row| row.nnz() > 0);
+    let first = (0..n).rev().find(has_mass).map_or(0, |last| last + 1);
+    let is_of_element = |row: usize| {
+        let row =
+            stiffness.outer_view(row).map(|view| view.indices().iter().map(|col| *col as usize).collect::<Vec<_>>());
+        row.is_some_and(|cols| cols.len() > 1 && cols.into_iter().all(|col| col >= first))
+    };
+    let (path, from, to) = (mass.path.clone(), first, n);
+    (first..n).any(is_of_element).then_some(InputNote::MassEndsEarly { path, from, to })
 }
 
 /// Adds empty rows and columns up to the order n.

@@ -89,6 +89,15 @@ pub enum InputNote {
         /// The order of the other matrix.
         to: usize,
     },
+    /// A mass of a format that states no size has no entries from some row on, where whole elements lie.
+    MassEndsEarly {
+        /// The file of the mass.
+        path: PathBuf,
+        /// The last row with entries.
+        from: usize,
+        /// The order.
+        to: usize,
+    },
     /// The last line has no line end, the usual sign of a file cut short.
     OpenLastLine {
         /// The file.
@@ -184,6 +193,7 @@ impl InputNote {
     pub fn warning_code(&self) -> Option<&'static str> {
         match self {
             Self::LastRowEmpty { .. } => Some("W-INDEX-BASE"),
+            Self::MassEndsEarly { .. } => Some("W-MASS-ENDS"),
             Self::Transformed { .. } => Some("W-LOCAL-DIRECTIONS"),
             Self::TurnedUntested { .. } => Some("W-FRAME-UNTESTED"),
             _ => None,
@@ -271,6 +281,15 @@ impl fmt::Display for InputNote {
                     f,
                     "{}: the largest index is {from}; rows up to {to}, the order of the other matrix, are empty",
                     file_name(path)
+                )
+            }
+            Self::MassEndsEarly { path, from, to } => {
+                write!(
+                    f,
+                    "{}: rows {} to {to} have no mass, nor have elements between them; a file of a format that states no size looks \
+                     so where it was cut short – check that it is whole, and name the mass in model.expect",
+                    file_name(path),
+                    from + 1
                 )
             }
             Self::OpenLastLine { path } => {

@@ -60,6 +60,14 @@ pub(crate) struct Judged {
     pub(crate) fail_above: f64,
 }
 
+impl Judged {
+    /// How bad a value is: above two where it fails, above one where it warns.
+    pub(crate) fn severity(self, value: f64) -> f64 {
+        let limit = self.limits.value();
+        if value <= limit { value / limit } else { 1.0 + value / self.fail_above }
+    }
+}
+
 /// The noise of energies relative to the first elastic one, by the bars of the frequencies known.
 pub(crate) fn noise(known: impl IntoIterator<Item = Known>, first: f64) -> f64 {
     known.into_iter().map(|known| known.lambda * known.relative_bar / first).fold(0.0, f64::max)

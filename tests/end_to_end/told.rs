@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use supel::cli::ExitCode;
+use supel_models::Material;
 use supel_models::springs::springs;
 
-use crate::place::{Ended, Place, supel};
+use crate::place::{Ended, Place, supel, warnings_of_reduction};
 
 const FOOT: &str = "--interface foot=1,11,31,41 --method herting --modes 5";
 
@@ -602,4 +603,36 @@ fn the_largest_explicit_step_is_not_rounded_up() {
         let printed: f64 = printed.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{said}"));
         assert!(printed <= limit && printed > 0.9 * limit, "{printed:e} for {limit:e}");
     }
+}
+
+/// Triplets without a size, of which those of the mass end early: what is left of it is half of the component.
+#[test]
+fn a_mass_that_ends_before_its_elements_do() {
+    let place = Place::with_brick();
+    let mass = entries(&place, "M.mtx");
+    let expected = format!("expect = {{ mass = {} }}", 0.31 * 0.23 * Material::STEEL_SI.density);
+    let said = |last: usize, expect: &str| {
+        let mut text = String::new();
+        for (row, col, value) in mass.iter().filter(|(row, col, _)| (*row).max(*col) <= last) {
+            writeln!(text, "{row} {col} {value}").expect("written");
+        }
+        place.write("M.txt", text.as_bytes());
+        let job = format!(
+            "[model]\nstiffness = \"K.mtx\"\nmass = \"M.txt\"\ndofs = \"dofs.txt\"\nnodes = \"nodes.csv\"\n{expect}\n\
+             [[interface]]\nname = \"foot\"\nnodes = [1, 11, 31, 41]\n\
+             [reduction]\nmethod = \"craig-bampton\"\nmodes = {{ count = 3 }}\n[write]\nsuperelement = \"x.supel\"\n"
+        );
+        place.write("job.toml", job.as_bytes());
+        let ended = supel(&["reduce", &place.text("job.toml")]);
+        (ended.code, warnings_of_reduction(&place.report("x.report.json")))
+    };
+    let warned = vec!["W-MASS-ENDS".to_owned()];
+    assert_eq!(said(135, ""), (ExitCode::Done, Vec::new()));
+    // The last node, whose neighbours have mass, may be one that a spring holds.
+    assert_eq!(said(132, ""), (ExitCode::Done, Vec::new()));
+    assert_eq!(said(60, ""), (ExitCode::Done, warned));
+    // What the job expects is compared.
+    assert_eq!(said(135, &expected), (ExitCode::Done, Vec::new()));
+    let (code, warnings) = said(60, &expected);
+    assert!(code == ExitCode::CheckFailed && !warnings.contains(&"W-MASS-ENDS".to_owned()), "{code:?} {warnings:?}");
 }

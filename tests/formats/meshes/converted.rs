@@ -134,7 +134,8 @@ fn the_file_is_what_vtk_reads() {
 fn meshes_without_cells_are_points() {
     let folder = Folder::new();
     let output = folder.0.path().join("points.vtkhdf");
-    for (name, told) in [("box.e", "the kinds of elements in the layout of Exodus"), ("box.hmf", "the kinds of cells")] {
+    for (name, told) in [("box.e", "the kinds of elements in the layout of Exodus"), ("box.hmf", "the kinds of cells")]
+    {
         let answer = converted(&fixture(&format!("mesh/{name}")), &output);
         assert_eq!(answer["mesh"]["cells"], 0, "{name}");
         assert!(answer["notes"][0].as_str().expect("a note").contains(told), "{answer}");
