@@ -8,7 +8,7 @@ use super::row_label::RowLabel;
 use super::{InputNote, MatrixInput};
 use crate::dofs::{Direction, DofMap};
 use crate::error::{Error, Result, Unnamed};
-use crate::sparse::{Given, RowStorage, SparseMatrix, filled};
+use crate::sparse::{Given, RowStorage, SparseMatrix, couples, filled, is_empty_row};
 
 /// What each row of the files is; unknown for rows of which neither matrices nor a dof map say so.
 #[derive(Clone, Debug, Default)]
@@ -147,12 +147,7 @@ pub(super) fn fit_matrices(
         return Ok((extend(stiffness, n_mass, notes), mass));
     }
     if n_mass < n_stiffness && mass_order == OrderSource::LargestIndex {
-        let mass = extend(mass, n_stiffness, notes);
-        notes.extend(ends_early(&stiffness.matrix, &mass));
-        return Ok((stiffness, mass));
-    }
-    if n_stiffness == n_mass && mass_order == OrderSource::Labels {
-        notes.extend(ends_early(&stiffness.matrix, &mass));
+        return Ok((stiffness, extend(mass, n_stiffness, notes)));
     }
     if n_stiffness != n_mass {
         let (stiffness, mass) = (stiffness.path, mass.path);
@@ -181,15 +176,11 @@ pub(super) fn take_notes(matrix: ReadMatrix, notes: &mut Vec<InputNote>) -> (Mat
 
 /// A mass without entries from some row on, where K couples one of these rows with others of them alone: an element without mass. A file that
 /// states no size and was cut short looks so. Nodes that single springs and rigid parts have at the end of a model are coupled with others.
-fn ends_early(stiffness: &SparseMatrix, mass: &MatrixInput) -> Option<InputNote> {
+pub(super) fn ends_early(stiffness: &SparseMatrix, mass: &MatrixInput) -> Option<InputNote> {
     let n = stiffness.rows();
-    let has_mass = |row: &usize| mass.matrix.outer_view(*row).is_some_and(|row| row.nnz() > 0);
-    let first = (0..n).rev().find(has_mass).map_or(0, |last| last + 1);
-    let is_of_element = |row: usize| {
-        let row =
-            stiffness.outer_view(row).map(|view| view.indices().iter().map(|col| *col as usize).collect::<Vec<_>>());
-        row.is_some_and(|cols| cols.len() > 1 && cols.into_iter().all(|col| col >= first))
-    };
+    let first = (0..n).rev().find(|row| !is_empty_row(&mass.matrix, *row)).map_or(0, |last| last + 1);
+    let is_of_element =
+        |row: usize| couples(stiffness, row, |other| other != row) && !couples(stiffness, row, |other| other < first);
     let (path, from, to) = (mass.path.clone(), first, n);
     (first..n).any(is_of_element).then_some(InputNote::MassEndsEarly { path, from, to })
 }

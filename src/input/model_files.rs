@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::allowance::Allowance;
-use super::common_rows::{RowLabels, fit_matrices, take_notes};
+use super::common_rows::{RowLabels, ends_early, fit_matrices, take_notes};
 use super::constraint_file::{ConstraintRows, constraint_rows};
-use super::format::{MatrixSource, ReadMatrix};
+use super::format::{MatrixSource, OrderSource, ReadMatrix};
 use super::further_matrix::FurtherMatrix;
 use super::hdf5_format;
 use super::internal_forces::{on_rows, read_internal_forces};
@@ -341,7 +341,12 @@ fn own_matrices(model: &ModelJob, allowance: &Allowance, notes: &mut Vec<InputNo
     let stiffness = labels.placed(stiffness)?;
     let (mut stiffness, mut mass) = match mass {
         Some(mass) => {
-            let (stiffness, mass) = fit_matrices(stiffness, labels.placed(mass)?, notes)?;
+            let mass = labels.placed(mass)?;
+            // A mass that the job expects is compared, whatever its file looks like.
+            let is_expected = model.expect.as_ref().is_some_and(|expect| expect.mass.is_some());
+            let may_end_early = mass.order != OrderSource::SizeLine && !is_expected;
+            let (stiffness, mass) = fit_matrices(stiffness, mass, notes)?;
+            notes.extend(may_end_early.then(|| ends_early(&stiffness.matrix, &mass)).flatten());
             (stiffness, Some(mass))
         }
         None => (take_notes(stiffness, notes).0, None),

@@ -253,10 +253,7 @@ fn origin(node: &InterfaceNode, jobs: &[InterfaceJob]) -> PositionOrigin {
 
 fn warnings(results: &Results<'_>) -> Vec<Warning> {
     let evidence = &results.evidence;
-    // The mass that the job expects is compared, whatever its file looks like.
-    let is_compared = results.job().model.expect.as_ref().is_some_and(|expect| expect.mass.is_some());
-    let of_input = results.input.warnings.iter().filter(|warning| !is_compared || warning.code != "W-MASS-ENDS");
-    let mut warnings: Vec<Warning> = of_input.cloned().collect();
+    let mut warnings = results.input.warnings.clone();
     let ratio = evidence.rank.singular_ratio;
     if ratio < ILL_CONDITIONED {
         warnings.push(Warning {

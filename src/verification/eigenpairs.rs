@@ -79,11 +79,11 @@ impl Pairs {
         for panel in panels(modes.count()) {
             let (start, end) = (panel.start, panel.end);
             let shapes = all.as_ref().as_ref().get(.., panel.clone());
-            let found_here = rows.residuals(shapes, &modes.lambda[panel]);
-            found.inertia_terms = found.inertia_terms.max(dense::worst(found_here.inertia_terms.iter().copied()));
+            let of_panel = rows.residuals(shapes, &modes.lambda[panel]);
+            found.inertia_terms = found.inertia_terms.max(dense::worst(of_panel.inertia_terms.iter().copied()));
             let alone = (start..end).filter(|mode| !runs.iter().any(|run| run.contains(mode)));
-            alone.for_each(|mode| found.take(&rows, (mode, modes.lambda[mode]), (shapes, mode - start), &found_here));
-            let energies = dense::gram(all.as_ref().as_ref().subcols(0, end), found_here.forces.as_ref());
+            alone.for_each(|mode| found.take(&rows, (mode, modes.lambda[mode]), (shapes, mode - start), &of_panel));
+            let energies = dense::gram(all.as_ref().as_ref().subcols(0, end), of_panel.forces.as_ref());
             found.couple(&energies, start, &modes.lambda);
         }
         for run in runs {
@@ -123,8 +123,9 @@ impl Pairs {
     }
 }
 
-/// The largest relative gap within a run of modes that have λ of their own and whose error bars meet: rounding mixes their shapes, and a mixture of two eigenvectors
-/// leaves a residual of that share of λ. Digits that the data lack mix nothing, for the eigensolver has the matrices as they are.
+/// The largest relative gap within a run of modes whose error bars meet: rounding mixes their shapes, and a mixture of two eigenvectors
+/// leaves a residual of that share of λ. Modes of one λ are judged as their space ([`repeated`]). Digits that the data lack mix nothing, for
+/// the eigensolver has the matrices as they are.
 fn mixed_by_rounding(evidence: &Evidence<'_>) -> f64 {
     if evidence.partition.has_few_digits() {
         return 0.0;

@@ -81,8 +81,8 @@ pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, precision: f64) -> Check {
     }
 }
 
-/// How well M is known in the six unit motions, relative to the mass and the inertia that it has there. Where entries are known to a last digit
-/// that all of them share, small ones of rotations may have none, and are nothing beside those of translations.
+/// How well M is known in the six unit motions, relative to the mass and the inertia that it has there. Entries that were printed with the same
+/// count of decimals differ in digits: those of rotations may have few, but translations make most of the inertia.
 pub(super) fn precision(evidence: &Evidence<'_>) -> f64 {
     let share = evidence.partition.precision.mass.share;
     let Some(noise) = evidence.partition.mass_noise(evidence.rigid.modes.as_ref().get(.., ..NAMES.len())) else {

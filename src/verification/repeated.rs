@@ -20,24 +20,19 @@ use crate::eigen::Modes;
 
 /// Runs of modes that have one λ.
 pub(super) fn runs(lambda: &[f64]) -> Vec<Range<usize>> {
-    let mut runs = Vec::new();
-    let mut first = 0;
-    for end in 1..=lambda.len() {
-        if end == lambda.len() || lambda[end] != lambda[first] {
-            if end - first > 1 {
-                runs.push(first..end);
-            }
-            first = end;
-        }
-    }
-    runs
+    let mut end = 0;
+    let range = |alike: &[f64]| {
+        end += alike.len();
+        end - alike.len()..end
+    };
+    lambda.chunk_by(|a, b| a == b).map(range).filter(|run| run.len() > 1).collect()
 }
 
 /// What the space of the modes of a run leaves of the pencil, by its columns.
 pub(super) fn residuals(rows: &Rows<'_>, modes: &Modes, run: Range<usize>, shapes: MatRef<'_, f64>) -> Residuals {
     let lambda = &modes.lambda[run.clone()];
     let mut found = rows.residuals(shapes, lambda);
-    let momenta = rows.momenta(shapes);
+    let Some(momenta) = &found.momenta else { return found };
     let scaled = |a: MatRef<'_, f64>| Mat::from_fn(a.nrows(), a.ncols(), |i, j| rows.norms.scale[i] * a[(i, j)]);
     let mut shares = scaled(momenta.as_ref()).qr().solve_lstsq(scaled(found.residual.as_ref()));
     for (column, j) in shares.as_mut().col_iter_mut().zip(run) {

@@ -13,7 +13,7 @@ use faer::{Mat, MatRef};
 use super::evidence::Evidence;
 use crate::dense;
 use crate::eigen::Equilibrated;
-use crate::sparse::{Pencil, energies_of_terms, product, product_and_terms};
+use crate::sparse::{Pencil, energies_of_terms, product_and_terms};
 
 /// Share of its own norm below which the terms of a row are at rest: a pair may leave 10⁻¹³ of a row's norm (M-01), which a
 /// row of smaller terms than this could not keep within 10⁻¹¹ of them (M-02).
@@ -37,7 +37,7 @@ impl<'a> Rows<'a> {
     /// What the columns of x, with their λ_j, leave of the pencil.
     pub(super) fn residuals(&self, x: MatRef<'_, f64>, lambda: &[f64]) -> Residuals {
         let (forces, mut terms) = product_and_terms(self.pencil.stiffness, x);
-        let (mut residual, mut inertia_terms) = (forces.clone(), vec![0.0; lambda.len()]);
+        let (mut residual, mut inertia_terms, mut moving) = (forces.clone(), vec![0.0; lambda.len()], None);
         if lambda.iter().any(|lambda| *lambda != 0.0) {
             let (momenta, of_mass) = product_and_terms(self.pencil.mass, x);
             inertia_terms = energies_of_terms(x, of_mass.as_ref());
@@ -50,13 +50,9 @@ impl<'a> Rows<'a> {
                 let terms = dense::column_mut(terms.as_mut(), j);
                 dense::add_scaled(terms, lambda.abs(), dense::column(of_mass.as_ref(), j));
             }
+            moving = Some(momenta);
         }
-        Residuals { forces, residual, terms, inertia_terms }
-    }
-
-    /// M x.
-    pub(super) fn momenta(&self, x: MatRef<'_, f64>) -> Mat<f64> {
-        product(self.pencil.mass, x)
+        Residuals { forces, momenta: moving, residual, terms, inertia_terms }
     }
 
     /// max ω_i over the rows that have a residual, and the row it is reached at.
@@ -89,6 +85,8 @@ impl<'a> Rows<'a> {
 pub(super) struct Residuals {
     /// K x.
     pub(super) forces: Mat<f64>,
+    /// M x, where one of them has a λ.
+    pub(super) momenta: Option<Mat<f64>>,
     /// K x − λ M x.
     pub(super) residual: Mat<f64>,
     /// (|K| + |λ||M|)|x|.

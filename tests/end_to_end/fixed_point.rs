@@ -254,7 +254,7 @@ fn rounded_whole_numbers_of_all_sizes_are_in_fixed_point() {
     );
 }
 
-/// Entries of rotations have three digits, and are nothing in the inertia of a plate beside the origin of its coordinates.
+/// Entries of rotations have three digits, but translations make nearly all of the inertia of a plate.
 #[test]
 fn fixed_decimals_leave_the_inertia_of_a_plate_known() {
     let wall = Wall { material: Material::STEEL_SI, thickness: 0.01, drilling: 1e-3 };

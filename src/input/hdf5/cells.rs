@@ -58,9 +58,7 @@ pub(super) fn add_table(cells: &mut Gathered<'_>, table: &Dataset<'_>, first: i6
     if n_each < LEAST_NODES {
         return Ok(());
     }
-    let n_nodes = cells.n_nodes();
-    let index = |(position, number): (usize, &i64)| table.checked_index(position, *number, first, n_nodes);
-    let nodes = table.integers()?.iter().enumerate().map(index).collect::<Result<Vec<usize>>>()?;
+    let nodes = table.checked_indices(first, cells.n_nodes())?;
     cells.add_table(n_each, &nodes)
 }
 

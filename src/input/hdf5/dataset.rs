@@ -170,6 +170,15 @@ impl<'a> Dataset<'a> {
         })
     }
 
+    /// The zero-based indices that all its numbers, counted from `first`, stand for among `n` things.
+    ///
+    /// # Errors
+    /// A number that stands for none of them; those of reading.
+    pub(super) fn checked_indices(&self, first: i64, n: usize) -> Result<Vec<usize>> {
+        let index = |(position, number): (usize, &i64)| self.checked_index(position, *number, first, n);
+        self.integers()?.iter().enumerate().map(index).collect()
+    }
+
     /// Number of values, once it is certain that the stored bytes can hold them.
     fn checked_len(&self) -> Result<usize> {
         let space = self.dataset.space().map_err(|e| self.read_error(&e))?;

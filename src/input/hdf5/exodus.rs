@@ -72,11 +72,9 @@ fn groups(
     let numbers = root.find_dataset(numbers)?.map(|numbers| numbers.integers()).transpose()?.unwrap_or_default();
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (at, members) in (0..).zip(numbered(root, dataset)?) {
-        let index = |(position, number): (usize, &i64)| members.checked_index(position, *number, 1, n_nodes);
-        let members = members.integers()?.iter().enumerate().map(index).collect::<Result<Vec<usize>>>()?;
         let own = || format!("{kind} {}", numbers.get(at).copied().unwrap_or(at as i64 + 1));
         let name = names.get(at).filter(|name| !name.is_empty()).cloned().unwrap_or_else(own);
-        groups.entry(name).or_default().extend(members);
+        groups.entry(name).or_default().extend(members.checked_indices(1, n_nodes)?);
     }
     for members in groups.values_mut() {
         members.sort_unstable();

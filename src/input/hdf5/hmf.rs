@@ -53,10 +53,7 @@ fn cell_groups(
     let mut nodes_of: Vec<Vec<usize>> = Vec::new();
     for dataset in tables(grid)? {
         let n_each = dataset.shape()?.get(1).copied().unwrap_or(1).max(1);
-        let numbers = dataset.integers()?;
-        let index = |(position, number): (usize, &i64)| dataset.checked_index(position, *number, 0, n_nodes);
-        let indices = numbers.iter().enumerate().map(index).collect::<Result<Vec<usize>>>()?;
-        nodes_of.extend(indices.chunks(n_each).map(<[usize]>::to_vec));
+        nodes_of.extend(dataset.checked_indices(0, n_nodes)?.chunks(n_each).map(<[usize]>::to_vec));
     }
     let of_all = tags.iter().filter(|(_, tags)| tags.len() == nodes_of.len());
     let groups = of_all.flat_map(|(name, tags)| tag_groups(name, tags)).map(|(name, cells)| {
