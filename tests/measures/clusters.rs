@@ -37,6 +37,10 @@ fn modes_that_rounding_cannot_tell_apart_are_judged_as_their_space() {
         let sound = evidence.retained;
         assert_eq!(sound.modes.lambda[0], sound.modes.lambda[1], "taken for one");
         assert!(seen(sound).iter().all(|(is_seen, _)| !is_seen), "{:?}", seen(sound));
+        // Quotients that are apart within their bars: the modes may be mixtures all the same.
+        let mut apart = sound.clone();
+        apart.modes.lambda[1] *= 1.0 + apart.modes.errors[1].data_bar;
+        assert!(seen(&apart).iter().all(|(is_seen, _)| !is_seen), "{:?}", seen(&apart));
         // A λ farther off than its bar says, and a space that another mode has a part in.
         let mut off = sound.clone();
         let bar = off.modes.errors[0].data_bar;
