@@ -97,20 +97,20 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>, of_digits: f64) -> Check {
     let reduced = evidence.basis.reduced_modes(modes, evidence.partition.n_internal);
     let forces = dense::product(reduction.stiffness.as_ref(), reduced.as_ref());
     let momenta = dense::product(reduction.mass.as_ref(), reduced.as_ref());
-    let [others, left_out] = pair_limits(evidence, of_digits);
-    let is_left_out = |mode| evidence.basis.dropped.iter().any(|column| column.coordinate.mode() == Some(mode));
-    let mut worst = (0.0, others, None);
+    let limits = PairLimits::of(evidence, of_digits);
+    let mut worst = (0.0, limits.of_mode(evidence, 0, 0.0), None);
     for (j, lambda) in modes.lambda.iter().enumerate() {
         let (force, momentum) = (dense::column(forces.as_ref(), j), dense::column(momenta.as_ref(), j));
+        let mode = dense::column(reduced.as_ref(), j);
         // A held interface takes up the reaction: its rows are not part of the eigenproblem.
-        let residual: Vec<f64> = force
-            .iter()
-            .zip(momentum)
-            .enumerate()
-            .map(|(i, (f, p))| if held.get(i) == Some(&true) { 0.0 } else { f - lambda * p })
-            .collect();
-        let error = norms.backward_error(*lambda, dense::column(reduced.as_ref(), j), &residual);
-        let judged = if is_left_out(j) { left_out } else { others };
+        let on_free_rows = |forces: Vec<f64>| -> Vec<f64> {
+            let of_row = |(i, f): (usize, f64)| if held.get(i) == Some(&true) { 0.0 } else { f };
+            forces.into_iter().enumerate().map(of_row).collect()
+        };
+        let residual = on_free_rows(force.iter().zip(momentum).map(|(f, p)| f - lambda * p).collect());
+        let error = norms.backward_error(*lambda, mode, &residual);
+        let cleared = on_free_rows(forces_of_cleared(evidence, mode));
+        let judged = limits.of_mode(evidence, j, norms.backward_error(*lambda, mode, &cleared));
         if dense::worse(judged.severity(error), worst.1.severity(worst.0)) {
             let at = norms.largest(&residual);
             worst = (error, judged, Some(format!("mode {}, {}", j + 1, coordinate_name(evidence, at))));
@@ -128,20 +128,44 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>, of_digits: f64) -> Check {
     }
 }
 
-/// What the residual of a mode may be, and that of a mode whose column was left out. Of its length it lacks what the other columns have not,
-/// up to [`INDEPENDENT`] of it, and the residual is that share of its terms, some times over for the other measure of length.
-fn pair_limits(evidence: &Evidence<'_>, of_digits: f64) -> [Judged; 2] {
-    let modes = &evidence.retained.modes;
-    let zero = zero_level(evidence);
-    // A mode that is nearly spanned by the columns before it is put together from what little it adds to them.
-    let dependence =
-        evidence.reduction.n_reduced() as f64 * f64::EPSILON / independence(evidence, Columns::BeforeResidualVectors).0;
-    let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes)).max(coupling_rounding(modes));
-    [arithmetic, arithmetic.max(NOISE_FACTOR * INDEPENDENT)].map(|arithmetic| {
-        let limits = Limits { engineering: 1e-12, arithmetic, data: zero.data.max(of_digits) };
+/// What the residual of a mode may be.
+struct PairLimits {
+    arithmetic: f64,
+    /// What few digits leave of it in the full model.
+    data: f64,
+}
+
+impl PairLimits {
+    fn of(evidence: &Evidence<'_>, of_digits: f64) -> Self {
+        let modes = &evidence.retained.modes;
+        let zero = zero_level(evidence);
+        // A mode that is nearly spanned by the columns before it is put together from what little it adds to them.
+        let dependence = evidence.reduction.n_reduced() as f64 * f64::EPSILON
+            / independence(evidence, Columns::BeforeResidualVectors).0;
+        let arithmetic = zero.arithmetic.max(dependence).max(repeated_rounding(modes)).max(coupling_rounding(modes));
+        Self { arithmetic, data: zero.data.max(of_digits) }
+    }
+
+    /// The limits of a mode, with the backward error that the block set to zero in K̂ would take away again: what few digits of K put into
+    /// that block is measured by M-13. A mode whose column was left out lacks of its length what the other columns have not, up to
+    /// [`INDEPENDENT`] of it, and the residual is that share of its terms, some times over for the other measure of length.
+    fn of_mode(&self, evidence: &Evidence<'_>, mode: usize, of_cleared: f64) -> Judged {
+        let is_left_out = evidence.basis.dropped.iter().any(|column| column.coordinate.mode() == Some(mode));
+        let arithmetic = if is_left_out { self.arithmetic.max(NOISE_FACTOR * INDEPENDENT) } else { self.arithmetic };
+        let of_cleared = if data_noise(evidence.partition) > 0.0 { of_cleared } else { 0.0 };
+        let limits = Limits { engineering: 1e-12, arithmetic, data: self.data + of_cleared };
         let limits = limits.capped(MAX_EXCUSE, MAX_EXCUSE);
         Judged { limits, fail_above: limits.value().max(1e-9) }
-    })
+    }
+}
+
+/// Forces on a reduced mode [v_B; q] of the block between interface and modes that is set to zero in K̂: [K̂_Bη q; K̂_ηB v_B].
+fn forces_of_cleared(evidence: &Evidence<'_>, mode: &[f64]) -> Vec<f64> {
+    let cleared = evidence.reduction.cleared.as_ref();
+    let (v_b, q) = mode.split_at(evidence.partition.n_interface());
+    let on_interface = (0..v_b.len()).map(|i| (0..q.len()).map(|j| cleared[(i, j)] * q[j]).sum());
+    let on_modes = (0..q.len()).map(|j| dense::dot(dense::column(cleared, j), v_b));
+    on_interface.chain(on_modes).collect()
 }
 
 /// What rounding of K̂ and of the modes leaves of x_iᵀKx_j, in the scales of the coordinates, as in M-04: the row of a mode in the
@@ -190,9 +214,10 @@ fn left_by_digits(evidence: &Evidence<'_>, mode: usize, difference: f64) -> Opti
     }
     let modes = &evidence.retained.modes;
     let reduced = evidence.basis.reduced_modes(modes, evidence.partition.n_internal);
-    let (v_b, q) = dense::column(reduced.as_ref(), mode).split_at(evidence.partition.n_interface());
-    let cleared = evidence.reduction.cleared.as_ref();
-    let work: f64 = (0..q.len()).map(|j| q[j] * dense::dot(dense::column(cleared, j), v_b)).sum();
+    let mode_of = dense::column(reduced.as_ref(), mode);
+    let forces = forces_of_cleared(evidence, mode_of);
+    // The work of both forces is the same.
+    let work = 0.5 * dense::dot(&forces, mode_of);
     // Half of the difference of λ, to first order; what is missing to the whole is of second order.
     let explained = (work / modes.lambda[mode]).abs();
     let words = "as rigid-body motion costs energy by the digits of the stiffness; write it with more";
