@@ -81,8 +81,10 @@ mod tests {
         other.reduction.modes = Some(crate::job::ModeSelection::UpTo { up_to_hz: 100.0 }.into());
         other.reduction.eigensolver = crate::job::Eigensolver::Arpack;
         other.model.nodes = Some("mesh.med".into());
+        other.model.mass = None;
         let found = differences(&one, &other).expect("names in UTF-8");
-        let wanted = ["interface[0].name", "model.nodes", "reduction.modes.count", "reduction.modes.up_to_hz"];
+        let wanted =
+            ["interface[0].name", "model.mass", "model.nodes", "reduction.modes.count", "reduction.modes.up_to_hz"];
         assert_eq!(found.wanted, wanted);
         assert_eq!(found.way, ["reduction.eigensolver"]);
     }

@@ -14,7 +14,7 @@ pub(super) fn notes(content: &Content<'_>) -> Vec<String> {
         notes.push("the job kept in the file is none of this version; what it expects was not compared".to_owned());
     }
     if metadata.model.rigid_body_modes == RigidBodyModes::Algebraic && content.n_rigid() > 0 {
-        notes.push("the rigid-body modes have no geometric meaning; mass and centre were not compared".to_owned());
+        notes.push("the rigid-body modes are not the six unit motions of one body: the file alone does not tell its mass and centre".to_owned());
     }
     if content.n_rigid() == 0 {
         notes.push("the component is held: no rigid-body motion ties its stiffness and mass together".to_owned());
@@ -42,19 +42,18 @@ const UNTIED_RECOVERY: Unvouched = unvouched(
     RECOVERY,
     "rigid-body motion ties its rows where it is the six unit motions, and here it is not: nothing in the file does",
 );
+const UNTIED_POSITION: &str = "the six unit motions are the only other place; motions without geometry, or that supports leave, tell no positions";
 const NOT_AT_HAND: &str = "names things of a model that is not at hand";
 
 /// Fields that the file alone cannot confirm.
-const ALONE: [Unvouched; 35] = [
+const ALONE: [Unvouched; 36] = [
     PARTS,
     unvouched("generator", "a file has no other sign of who made it"),
     unvouched("units", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].name", "the job kept in it is the only other place, and may be changed too"),
     unvouched("interface_nodes[].label", NOT_AT_HAND),
-    unvouched(
-        "interface_nodes[].position",
-        "the rigid-body modes are the only other place; algebraic ones have no positions",
-    ),
+    unvouched("interface_nodes[].position", UNTIED_POSITION),
+    unvouched("interface_positions", UNTIED_POSITION),
     unvouched("interface_frames", "axes along a hole are those of a mesh that is not at hand"),
     unvouched("coordinates[].row", NOT_AT_HAND),
     unvouched(
@@ -105,9 +104,13 @@ const ALONE: [Unvouched; 35] = [
 ];
 
 /// Fields that a comparison with the job cannot confirm either.
-const WITH_JOB: [Unvouched; 6] = [
+const WITH_JOB: [Unvouched; 7] = [
     PARTS,
     unvouched("generator", "another version that makes the same leaves no other sign; a warning says so"),
+    unvouched(
+        "coordinates[].error_bar_hz",
+        "what the residual of another eigensolver adds to a bar may be anything up to a bound; within it bars are not told apart",
+    ),
     unvouched("dropped[].reason", "words for people"),
     unvouched("job", "files may move, and repeated entries are added or refused: the matrices are compared"),
     unvouched("verification", "values are the rounding of one run; each property was measured anew"),
@@ -126,7 +129,9 @@ pub(super) fn fields(superelement: &Superelement, compared: Compared) -> Vec<Unv
         "generator.parts_of_earlier_runs" => metadata.generator.parts_of_earlier_runs.is_some(),
         "units" => metadata.units.is_some(),
         "interface_nodes[].label" => metadata.interface_nodes.iter().any(|node| node.label.is_some()),
-        "interface_nodes[].position" => is_algebraic && !metadata.interface_nodes.is_empty(),
+        "interface_nodes[].position" | "interface_positions" => {
+            (is_algebraic || superelement.n_rigid() < MOTIONS.len()) && !metadata.interface_nodes.is_empty()
+        }
         "interface_frames" => metadata.job["interface"].as_array().is_some_and(|all| all.iter().any(is_along_hole)),
         "coordinates[].row" => superelement.n_interface() > 0 && metadata.interface_nodes.is_empty(),
         "coordinates[].error_bar_hz" => !tensors.frequencies.is_empty(),

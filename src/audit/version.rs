@@ -4,9 +4,10 @@ use supel_runtime::{Generator, Superelement};
 
 use crate::job::Job;
 
-/// The job kept in a file, where it is one of this version.
+/// The job kept in a file, where it is one that this version makes a reduction of.
 pub fn kept_job(superelement: &Superelement) -> Option<Job> {
-    serde_json::from_value(superelement.metadata().job.clone()).ok()
+    let job: Job = serde_json::from_value(superelement.metadata().job.clone()).ok()?;
+    job.validate().is_ok().then_some(job)
 }
 
 /// Whether this program, in this version, made the file, as far as it says so.

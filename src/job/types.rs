@@ -108,7 +108,7 @@ pub struct ModelJob {
     /// File of M; a static scene without gravity needs none.
     #[schemars(length(min = 1))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-role" = "place"))]
+    #[schemars(extend("x-role" = "place-of-one"))]
     pub mass: Option<PathBuf>,
     /// File that says which node and direction each row is.
     #[schemars(length(min = 1))]

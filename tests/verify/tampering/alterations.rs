@@ -218,6 +218,16 @@ fn job(metadata: &mut Metadata, path: &str, value: serde_json::Value) -> bool {
 
 const INTERFACE_LEFT_OUT: &str = "an interface coordinate said to be left out";
 
+fn node_moved(t: &mut Tensors, m: &mut Metadata) -> bool {
+    let (Some(position), Some(node)) = (t.interface_positions.last_mut(), m.interface_nodes.last_mut()) else {
+        return false;
+    };
+    let size = position.iter().fold(0.0f64, |max, x| max.max(x.abs()));
+    position[2] += 1e-6 * size;
+    node.position = *position;
+    size > 0.0
+}
+
 fn leave_out_interface(_: &mut Tensors, metadata: &mut Metadata) -> bool {
     let Some(column) = metadata.coordinates.first().filter(|coordinate| coordinate.is_interface()).cloned() else {
         return false;
@@ -335,14 +345,12 @@ pub(super) const ALTERATIONS: &[Alteration] = &[
     Alteration {
         field: "interface_positions",
         what: "moved by 1e-6 of the distance, with the node",
-        alter: |t, m| {
-            let Some(position) = t.interface_positions.last_mut() else { return false };
-            let size = position.iter().fold(0.0f64, |max, x| max.max(x.abs()));
-            position[2] += 1e-6 * size;
-            let node = m.interface_nodes.last_mut().expect("a node");
-            node.position = *position;
-            size > 0.0
-        },
+        alter: |t, m| t.rigid_body_mass.rows() > 0 && node_moved(t, m),
+    },
+    Alteration {
+        field: "interface_positions",
+        what: "moved by 1e-6 of the distance, with the node, on supports",
+        alter: |t, m| t.rigid_body_mass.rows() == 0 && node_moved(t, m),
     },
     Alteration {
         field: "interface_frames",

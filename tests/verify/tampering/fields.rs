@@ -145,7 +145,7 @@ fn walk(document: &Value, value: &Value, path: &mut Vec<Step>, changes: &mut Vec
         Value::Object(fields) => {
             for (key, value) in fields {
                 path.push(Step::Key(key.clone()));
-                if matches!(value, Value::Object(_) | Value::Array(_)) && is_optional(&name(path)) {
+                if !value.is_null() && is_optional(&name(path)) {
                     let mut altered = document.clone();
                     let (parent, whole) = (&path[..path.len() - 1], name(path));
                     at(&mut altered, parent)[key] = Value::Null;
@@ -180,9 +180,23 @@ fn changes_of_inputs(
     }
 }
 
-/// Objects and lists that a document may do without.
+/// What a document may do without.
 fn is_optional(field: &str) -> bool {
-    ["model.mass_properties", "validity.band_hz"].contains(&field)
+    const OPTIONAL: &[&str] = &[
+        "model.mass_properties",
+        "validity.band_hz",
+        "job.damping",
+        "job.model.dofs",
+        "job.model.expect",
+        "job.model.mass",
+        "job.model.nodes",
+        "job.model.units",
+        "job.reduction.held",
+        "job.scene",
+        "job.write.quantities",
+        "job.write.recovery",
+    ];
+    OPTIONAL.contains(&field)
 }
 
 /// Another text of the same kind: hexadecimal digits stay digits.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use supel::cli::ExitCode;
 use supel::job::Job;
+use supel_models::transform::supported;
 use supel_models::{Ends, Material, brick, spring};
 use supel_runtime::Superelement;
 
@@ -175,6 +176,16 @@ fn turning() -> Subject {
     Subject::of("Rubin, free to turn", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, recovery))
 }
 
+/// A solid on supports: nothing of rigid-body motion ties its fields.
+fn held() -> Subject {
+    let place = Place::with(&supported(&steel_brick(), |(node, _)| node % 5 == 0));
+    let interfaces = patch("foot", "[1, 11, 31, 41]", "rigid")
+        + &patch("side", "[23]", "direct")
+        + "[[load]]\nname = \"thrust\"\nnodes = [22]\nforce = [1.5, 2.5, 3.5]\n";
+    let reduction = "method = \"herting\"\nmodes = { count = 5 }";
+    Subject::of("held", place, &text(&(FILES.to_owned() + MESH), &interfaces, reduction, ""))
+}
+
 /// A solid without interface: its own modes.
 fn modal() -> Subject {
     let place = Place::with(&steel_brick());
@@ -207,6 +218,7 @@ pub(super) fn subjects() -> Vec<Subject> {
         expanded(),
         mixed(),
         turning(),
+        held(),
         modal(),
         massless(),
     ];
