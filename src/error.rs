@@ -349,8 +349,9 @@ pub enum Error {
     /// An index is 0 or larger than the matrix.
     #[entry("E-INDEX", InputData, "count rows and columns from 1")]
     #[error(
-        "{}:{line}: {field} {found} lies outside the matrix – expected 1 to {n}, because indices count from 1",
-        path.display()
+        "{}:{line}: {field} {} lies outside the matrix – expected 1 to {n}, because indices count from 1",
+        path.display(),
+        if *found == u64::MAX { format!("{found} or more") } else { found.to_string() }
     )]
     EntryIndex {
         /// The file.
@@ -2846,12 +2847,12 @@ pub enum Error {
     #[entry(
         "E-PRELOAD-NONE",
         InputData,
-        "leave `model.state` out where no node has an internal force; write K with more digits where they are small"
+        "leave `model.state` out where no node has an internal force; write K with more digits where they are small, and with the rows of all directions that the forces have"
     )]
     #[error(
         "the state is preloaded – turning its internal forces makes {largest:.1e} of the terms of the stiffness at most, which rounding of \
         the stiffness makes too – expected forces that tell a preload – leave model.state out where no node has an internal force: \
-        rotations are free then; write K with more digits where they are small"
+        rotations are free then; write K with more digits where they are small, and with the rows of all directions that the forces have"
     )]
     PreloadNone {
         /// Largest force of a unit rotation over the terms of its row.
@@ -3158,10 +3159,15 @@ pub enum Error {
         node: i64,
     },
     /// A selection asks for a dof that its node does not have.
-    #[entry("E-DOF-MISSING", InputData, "list the dofs, or use `coupling = \"rigid\"`")]
+    #[entry(
+        "E-DOF-MISSING",
+        InputData,
+        "list the dofs, use `coupling = \"rigid\"`, or leave out what a load has along it"
+    )]
     #[error(
-        "{selector}: {dof} does not exist – expected a direction the node has – solids have no \
-        rotations; use coupling = \"rigid\" or list the dofs"
+        "{selector}: {dof} does not exist – expected a direction the node has – solids have no rotations and models in a plane no motion \
+        across it; {}",
+        selector.remedy_of_missing_dof()
     )]
     DofMissing {
         /// Who selects.
@@ -3359,10 +3365,15 @@ pub enum Error {
         n_rigid: usize,
     },
     /// A patch cannot follow all motions of its node.
-    #[entry("E-PATCH-RANK", InputData, "add nodes off the line, or list fewer dofs")]
+    #[entry(
+        "E-PATCH-RANK",
+        InputData,
+        "add nodes off the line, or list fewer dofs; a carrier has six, which no model in a plane can follow"
+    )]
     #[error(
         "interface {interface:?}: its {} can follow only {rank} of {} of its node – expected three \
-        nodes that are not in line – add nodes to the patch or list fewer dofs",
+        nodes that are not in line, with rows in all directions that it moves – add nodes to the patch or list fewer dofs; a carrier has \
+        six, which no model in a plane can follow",
         counted(*n_rows, "row", "rows"), counted(*expected, "motion", "motions")
     )]
     PatchRank {

@@ -125,7 +125,7 @@ fn key_of_gravity(superelement: &Superelement) -> &'static str {
     let model = &superelement.metadata().job["model"];
     match model["dofs"].is_null() || model["nodes"].is_null() {
         true => "model.dofs and model.nodes",
-        false => "a model of one free body, or with [[fixed]]",
+        false => "a model of one free body with six rigid-body motions, or with [[fixed]]",
     }
 }
 

@@ -136,6 +136,9 @@ impl Turned {
 
     /// Refuses forces that are lost in rounding of K, and those that K does not answer with; `is_tied` says which rows rigid patches have.
     fn refuse_misfit(&self, motions: &Motions<'_>, is_tied: &[bool]) -> Result<()> {
+        if self.largest == 0.0 {
+            return Err(Error::PreloadNone { largest: 0.0 });
+        }
         let of_patches = self.of_row.iter().filter(|of_row| is_tied[of_row.row]);
         let largest_tied = dense::worst(of_patches.flat_map(|of_row| of_row.expected.map(f64::abs)));
         let limit = |of_row: &TurnedRow| match is_tied[of_row.row] {

@@ -31,6 +31,15 @@ impl Selector {
             Self::Quantities => "write.quantities",
         }
     }
+
+    /// What to do where a node lacks a direction that is asked for.
+    pub(super) fn remedy_of_missing_dof(&self) -> &'static str {
+        match self {
+            Self::Load(_) => "leave out what the load has along it",
+            Self::Interface(_) => "use coupling = \"rigid\" or list the dofs",
+            _ => "list the dofs",
+        }
+    }
 }
 
 impl fmt::Display for Selector {

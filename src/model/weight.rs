@@ -12,16 +12,21 @@ use crate::sparse::{is_empty_row, product};
 /// What M says of the six unit motions of all rows together, in scaled units.
 #[derive(Clone, Debug)]
 pub struct Weight {
+    /// Axes along which the map has translations, ascending: all of a model in space.
+    pub axes: Vec<usize>,
     /// tᵀMt of the unit translations along x, y and z; zero in a direction that the model does not have.
     pub translations: [f64; 3],
+    /// tᵀM(x_t t) of these, x_t the coordinate along the translation at each row: m times that of the centre. Zero where coordinates are not
+    /// known.
+    pub along_themselves: [f64; 3],
     /// UᵀMU of the six unit motions about the origin, 6 × 6, where coordinates are known.
     pub motions: Option<Mat<f64>>,
     /// UᵀMU of each part of several nodes that M couples, where M leaves several parts uncoupled: springs between them have no mass.
     pub parts: Vec<PartWeight>,
     /// Largest distance along an axis between nodes that M gives mass to a translation, where coordinates are known: zero of a point.
     pub extent: f64,
-    /// Whether every node has all translations or none, and all rotations or none where M couples them with translations, so that no
-    /// direction lacks mass that others have.
+    /// Whether every node has all translations of the model or none, and all of its rotations or none where M couples them with translations,
+    /// so that no direction lacks mass that others have. A model in space has three of each, and one in a plane those along it.
     pub has_whole_nodes: bool,
     /// Whether supports may have taken mass out of the matrices before they were read.
     pub supports: Supports,
@@ -72,11 +77,22 @@ impl Model {
         let mut masses = dense::gram(motions.as_ref(), momenta.as_ref());
         dense::symmetrise(&mut masses);
         let translations = std::array::from_fn(|axis| masses[(axis, axis)]);
+        let along_themselves = first_moments(sites.as_deref(), &momenta);
+        let axes = (0..3).filter(|axis| dofs.iter().flatten().any(|dof| dof.direction as usize == *axis)).collect();
         let has_whole_nodes = self.has_whole_nodes(dofs);
         let parts = if sites.is_some() { self.weighed_parts(dofs, (&motions, &momenta)) } else { Vec::new() };
         let motions = sites.is_some().then_some(masses);
         let extent = sites.map_or(0.0, |sites| self.extent_of_mass(&sites));
-        Some(Weight { translations, motions, parts, extent, has_whole_nodes, supports: self.supports })
+        Some(Weight {
+            axes,
+            translations,
+            along_themselves,
+            motions,
+            parts,
+            extent,
+            has_whole_nodes,
+            supports: self.supports,
+        })
     }
 
     fn has_whole_nodes(&self, dofs: &[Option<Dof>]) -> bool {
@@ -85,17 +101,21 @@ impl Model {
             let entries = self.mass.outer_view(row);
             entries.iter().flat_map(|view| view.iter()).any(|(col, value)| *value != 0.0 && translates(col))
         };
-        // Translations, rotations, and whether mass moves with one of these.
-        let mut nodes: HashMap<i64, ([usize; 2], bool)> = HashMap::new();
+        // Directions, and whether mass moves with a rotation.
+        let mut nodes: HashMap<i64, ([bool; 6], bool)> = HashMap::new();
+        let mut of_model = [false; 6];
         for (row, dof) in dofs.iter().enumerate().filter_map(|(row, dof)| dof.map(|dof| (row, dof))) {
-            let is_rotation = dof.direction.is_rotation();
-            let (count, moves_mass) = nodes.entry(dof.node).or_default();
-            count[usize::from(is_rotation)] += 1;
-            *moves_mass |= is_rotation && is_coupled(row);
+            let (has, moves_mass) = nodes.entry(dof.node).or_default();
+            has[dof.direction as usize] = true;
+            of_model[dof.direction as usize] = true;
+            *moves_mass |= dof.direction.is_rotation() && is_coupled(row);
         }
-        let are_all = |count: usize| count == 0 || count == 3;
-        nodes.values().all(|([translations, rotations], moves_mass)| {
-            are_all(*translations) && (are_all(*rotations) || !moves_mass)
+        if !is_of_space_or_a_plane(of_model) {
+            return false;
+        }
+        let are_all_or_none = |has: &[bool], of_model: &[bool]| has == of_model || !has.contains(&true);
+        nodes.values().all(|(has, moves_mass)| {
+            are_all_or_none(&has[..3], &of_model[..3]) && (are_all_or_none(&has[3..], &of_model[3..]) || !moves_mass)
         })
     }
 
@@ -129,5 +149,29 @@ impl Model {
             Some(PartWeight { motions: masses, first_node: first })
         };
         if rows_of.len() < 2 { Vec::new() } else { rows_of.iter().filter_map(weighed).collect() }
+    }
+}
+
+/// tᵀM(x_t t) of the unit translations, from M t in the columns of `momenta`.
+fn first_moments(sites: Option<&[Option<Site>]>, momenta: &Mat<f64>) -> [f64; 3] {
+    let mut moments = [0.0; 3];
+    for (row, site) in sites.into_iter().flatten().enumerate() {
+        if let Some(Site { position, direction }) = site.filter(|site| !site.direction.is_rotation()) {
+            let axis = direction.axis();
+            moments[axis] += position[axis] * momenta[(row, axis)];
+        }
+    }
+    moments
+}
+
+/// Whether a model has the directions of one in space, or of one that moves in a plane: those along it, and the rotation across it or none.
+/// Supports of a model in space leave others.
+fn is_of_space_or_a_plane(has: [bool; 6]) -> bool {
+    let (translations, rotations) = has.split_at(3);
+    let turns = rotations.contains(&true);
+    match translations.iter().filter(|has| **has).count() {
+        3 => !turns || !rotations.contains(&false),
+        2 => (0..3).all(|axis| !turns || rotations[axis] != translations[axis]),
+        _ => !turns,
     }
 }

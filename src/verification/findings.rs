@@ -4,6 +4,7 @@ use super::check::Check;
 use super::evidence::Evidence;
 use super::grounding::{self, Grounding};
 use super::loads::{self, EffectiveMasses};
+use super::place::ALL_AXES;
 use super::rigid_body::{self, MassRoutes};
 use super::{
     attached, attachment, completeness, conditioning, damping, eigenpairs, enclosed, mass, named_loads, probes,
@@ -76,7 +77,7 @@ pub fn verify(evidence: &Evidence<'_>) -> Result<Findings> {
     if evidence.rigid.is_classical {
         let m_f = evidence.reduction.rigid_body_mass.as_ref();
         let precision = mass::precision(evidence);
-        checks.push(mass::of_a_body(m_f, precision));
+        checks.push(mass::of_a_body(m_f, &ALL_AXES, precision));
         checks.extend(mass::of_inertia(m_f, precision, mass::extent(evidence.partition)));
     }
     if !evidence.rigid.is_classical || evidence.partition.held.count() > 0 {

@@ -110,19 +110,18 @@ pub(super) fn groundings(evidence: &Evidence<'_>, spectrum: &Spectrum) -> Result
         }
     });
     let mut found: Vec<Grounding> = found.collect();
-    ground_surplus(&mut found, evidence.rigid.count());
+    // Rotations of a preloaded component cost energy, which few digits of K hide and no spring makes.
+    let restraint = if partition.fit.is_preloaded() { Restraint::Held } else { Restraint::Grounded };
+    hold_surplus(&mut found, evidence.rigid.count(), restraint);
     Ok(found)
 }
 
-/// No more directions are free than there are free motions, whatever rounding in patches would hide: the costliest of them are held softly.
-fn ground_surplus(found: &mut [Grounding], n_free_motions: usize) {
+/// No more directions are free than there are free motions, whatever rounding in patches would hide: the costliest of them are held.
+fn hold_surplus(found: &mut [Grounding], n_free_motions: usize, restraint: Restraint) {
     let mut free: Vec<&mut Grounding> = found.iter_mut().filter(|of| of.restraint == Restraint::Free).collect();
     free.sort_by(|a, b| b.energy_ratio.total_cmp(&a.energy_ratio));
     let n_surplus = free.len().saturating_sub(n_free_motions);
-    free.into_iter()
-        .take(n_surplus)
-        .filter(|of| of.energy_ratio > 0.0)
-        .for_each(|of| of.restraint = Restraint::Grounded);
+    free.into_iter().take(n_surplus).filter(|of| of.energy_ratio > 0.0).for_each(|of| of.restraint = restraint);
 }
 
 /// How far rounding may move a quotient apart from itself.

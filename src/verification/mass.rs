@@ -4,6 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::check::{Check, Limits, Verdict};
 use super::evidence::{Evidence, NAMES, rigid_name};
+use super::place::{ALL_AXES, Place};
 use super::rigid_body::mass_difference;
 use crate::dense::{self, NOISE_FACTOR};
 use crate::job::Expectation;
@@ -50,14 +51,15 @@ const UNLIKE_A_BODY: f64 = 1e-3;
 
 /// M-16: M_F = [m I, −m c̃; m c̃, J] in six unit motions, whatever the body is. Nothing else is one mass with one centre.
 ///
-/// `precision` is the relative size of the last digit of M. A direction with another mass than the others comes of rows of M in another
-/// order than those of K, of mass that acts in one direction, and of wrong coordinates.
-pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, precision: f64) -> Check {
-    let mass = (m_f[(0, 0)] + m_f[(1, 1)] + m_f[(2, 2)]) / 3.0;
+/// `axes` are those along which the model has translations, and `precision` is the relative size of the last digit of M. A direction with
+/// another mass than the others comes of rows of M in another order than those of K, of mass that acts in one direction, and of wrong
+/// coordinates.
+pub(crate) fn of_a_body(m_f: MatRef<'_, f64>, axes: &[usize], precision: f64) -> Check {
+    let mass = axes.iter().map(|&i| m_f[(i, i)]).sum::<f64>() / axes.len() as f64;
     let inertia = (m_f[(3, 3)] + m_f[(4, 4)] + m_f[(5, 5)]) / 3.0;
     let mut worst = (0.0, None);
-    for i in 0..3 {
-        for j in 0..3 {
+    for &i in axes {
+        for &j in axes {
             let of_translations = m_f[(i, j)] - if i == j { mass } else { 0.0 };
             // What is not antisymmetric, compared with the largest first moment of such an inertia; a point mass has none.
             let of_both = 0.5 * (m_f[(i, 3 + j)] + m_f[(j, 3 + i)]);
@@ -113,7 +115,7 @@ pub(crate) fn of_inertia(m_f: MatRef<'_, f64>, precision: f64, extent: f64) -> O
     // A point has none, but for the rounding of its distance.
     let is_point = extent == 0.0 && mean.abs() <= NOISE_FACTOR * f64::EPSILON * about_origin;
     let has_none = mass.is_nan() || mass <= 0.0 || is_point;
-    if has_none || of_a_body(m_f, precision).verdict() == Verdict::Fail {
+    if has_none || of_a_body(m_f, &ALL_AXES, precision).verdict() == Verdict::Fail {
         return None;
     }
     // Above one nothing of it is known, whatever rounding left of the mean.
@@ -146,7 +148,7 @@ pub(super) fn extent(partition: &Partition) -> f64 {
 pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
     let weight = partition.model.weight.as_ref()?;
     let motions = weight.motions.as_ref().filter(|_| is_whole(weight))?;
-    Some(of_a_body(motions.as_ref(), partition.precision.mass.share))
+    Some(of_a_body(motions.as_ref(), &weight.axes, partition.precision.mass.share))
 }
 
 /// M-16 of each part of several nodes that M couples with no other, the worst of them: a light part behind springs is nothing in the mass of
@@ -154,7 +156,7 @@ pub(crate) fn of_weighed_body(partition: &Partition) -> Option<Check> {
 pub(crate) fn of_parts(partition: &Partition) -> Option<Check> {
     let weight = partition.model.weight.as_ref()?;
     let of_part = |part: &PartWeight| {
-        let check = of_a_body(part.motions.as_ref(), partition.precision.mass.share);
+        let check = of_a_body(part.motions.as_ref(), &weight.axes, partition.precision.mass.share);
         let at = check.worst.as_ref().map(|at| format!("{at} of the part with node {}", part.first_node));
         Check {
             name: "mass of each part is that of a body",
@@ -169,8 +171,9 @@ pub(crate) fn of_parts(partition: &Partition) -> Option<Check> {
 
 /// Whether all of the mass is there that the model had: nothing held it before it was read.
 fn is_whole(weight: &Weight) -> bool {
-    let has_mass = weight.translations.iter().all(|mass| *mass > 0.0);
-    has_mass && weight.has_whole_nodes && weight.supports == Supports::None
+    // One translation has none to be compared with.
+    let has_masses = weight.axes.len() > 1 && weight.axes.iter().all(|axis| weight.translations[*axis] > 0.0);
+    has_masses && weight.has_whole_nodes && weight.supports == Supports::None
 }
 
 /// M-16 against what the job expects.
@@ -215,13 +218,12 @@ pub(crate) fn comparable(lacks: &[&str]) -> Option<Check> {
 fn compared(expect: &Expectation, known: Known, unit: f64) -> Option<Check> {
     let mass = known.mass * unit;
     let mass_error = expect.mass.map(|expected| (mass / expected - 1.0).abs());
-    let shift = expect.cg.zip(known.place).map(|(expected, Place { centre, gyration })| {
-        (0..3).map(|i| (centre[i] - expected[i]).powi(2)).sum::<f64>().sqrt() / gyration
-    });
+    let shift = expect.cg.zip(known.place).map(|(expected, place)| place.shift_from(expected));
     if mass_error.is_none() && shift.is_none() {
         return None;
     }
-    let may_lack_rows = !known.is_whole && expect.mass.is_none_or(|expected| mass < expected);
+    // Where the mass is that expected, no row is missing.
+    let may_lack_rows = !known.is_whole && expect.mass.is_none_or(|expected| mass < (1.0 - AS_EXPECTED) * expected);
     let centre = known.place.map_or_else(String::new, |Place { centre, gyration }| {
         // Rounding compared with the component's size is shown as zero.
         let shown = |value: f64| quantity(if value.abs() < 1e-12 * gyration { 0.0 } else { value }, 6);
@@ -233,7 +235,7 @@ fn compared(expect: &Expectation, known: Known, unit: f64) -> Option<Check> {
         name: "mass and centre are those expected",
         equation: "max |m/m_expected − 1|, |c − c_expected| / radius of gyration",
         value: dense::worst(mass_error.into_iter().chain(shift)),
-        limits: Limits { engineering: 1e-4, ..Limits::default() },
+        limits: Limits { engineering: AS_EXPECTED, ..Limits::default() },
         fail_above: if may_lack_rows { TAKEN_OUT } else { 1e-2 },
         worst: Some(format!("{}{centre}{lacks}", found_mass(mass, expect.mass))),
     })
@@ -252,6 +254,8 @@ fn found_mass(mass: f64, expected: Option<f64>) -> String {
     format!("{found}, expected {}{ratio}", quantity(expected, 6))
 }
 
+/// Relative difference from what the job expects, which people write with four digits.
+const AS_EXPECTED: f64 = 1e-4;
 /// Share of the mass that supports may take out of a held model. A model that lacks more has another fault.
 const TAKEN_OUT: f64 = 0.5;
 
@@ -261,13 +265,6 @@ struct Known {
     place: Option<Place>,
     /// Whether no support took out a row.
     is_whole: bool,
-}
-
-#[derive(Clone, Copy)]
-struct Place {
-    centre: [f64; 3],
-    /// The radius of gyration, the length that a shift of the centre is compared with.
-    gyration: f64,
 }
 
 impl Known {
@@ -287,18 +284,7 @@ impl Known {
         let weight = partition.model.weight.as_ref()?;
         // A support may take out the rows of one direction and not of another.
         let mass = weight.translations.into_iter().fold(0.0, f64::max);
-        let place = weight.motions.as_ref().map(|m_f| Place::of(m_f.as_ref(), mass));
+        let place = Place::of_weight(weight, mass);
         Some(Self { mass, place, is_whole: weight.supports == Supports::None })
-    }
-}
-
-impl Place {
-    fn of(m_f: MatRef<'_, f64>, mass: f64) -> Self {
-        let centre = [m_f[(1, 5)] / mass, m_f[(2, 3)] / mass, m_f[(0, 4)] / mass];
-        let about_origin = (m_f[(3, 3)] + m_f[(4, 4)] + m_f[(5, 5)]) / (2.0 * mass);
-        let square = about_origin - centre.iter().map(|x| x * x).sum::<f64>();
-        // A point has none; what rounding leaves of one is not a length to compare with.
-        let gyration = if square > f64::EPSILON * about_origin { square.sqrt() } else { about_origin.sqrt() };
-        Self { centre, gyration }
     }
 }

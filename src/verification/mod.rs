@@ -23,6 +23,7 @@ mod loads;
 mod mass;
 mod named_loads;
 mod penalty;
+mod place;
 pub mod preservation;
 mod probes;
 mod reduced;

@@ -34,6 +34,6 @@ pub(crate) fn of_modes(unseen: &[UnseenMode]) -> Option<Check> {
         value: worst.0,
         limits,
         fail_above: FAIL * limits.value(),
-        worst: Some(format!("mode {} of {} left out", worst.1.mode + 1, unseen.len())),
+        worst: Some(format!("mode {}, one of {} left out", worst.1.mode + 1, unseen.len())),
     })
 }

@@ -173,24 +173,28 @@ fn supports_of_any_stiffness_are_no_local_frames() {
     }
 }
 
-/// A node that a spring along x ties to a block and one along y to the ground: the block moves along y and leaves it behind, without a
+/// A node that springs along x and z tie to a block and one along y to the ground: the block moves along y and leaves it behind, without a
 /// force. What stays behind is in no frame of its own.
 #[test]
 fn a_node_left_behind_is_in_no_local_frame() {
     let mut model = block();
     let (host, k) = (model.dofs[0].0, 1e6);
     let row = model.n as u32;
-    let host_row = model.dofs.iter().position(|dof| *dof == (host, 0)).expect("a row") as u32;
+    let row_of_host =
+        |direction| model.dofs.iter().position(|dof| *dof == (host, direction)).expect("a row of the host") as u32;
+    let tied = [(row_of_host(0), row), (row_of_host(2), row + 2)];
     model.labels.push(900);
     model.nodes.push(model.nodes[0]);
-    model.dofs.extend([(900, 0), (900, 1)]);
-    model.n += 2;
+    model.dofs.extend([0, 1, 2].map(|direction| (900, direction)));
+    model.n += 3;
     let (mut stiffness, mut mass) = (Assembler::default(), Assembler::default());
     stiffness.extend(model.stiffness.iter().copied());
     mass.extend(model.mass.iter().copied());
-    let springs = [(host_row, host_row, k), (row, row, k), (host_row, row, -k), (row + 1, row + 1, k)];
-    springs.into_iter().for_each(|(i, j, k)| stiffness.add(i, j, k));
-    [row, row + 1].into_iter().for_each(|row| mass.add(row, row, 1.0));
+    for (i, j) in tied {
+        [(i, i, k), (j, j, k), (i, j, -k)].into_iter().for_each(|(i, j, k)| stiffness.add(i, j, k));
+    }
+    stiffness.add(row + 1, row + 1, k);
+    (row..row + 3).for_each(|row| mass.add(row, row, 1.0));
     let model = Model { stiffness: stiffness.finish(), mass: mass.finish(), ..model };
     let found = Checked::new(input(&model)).and_then(|model| compared(model, Ties::None));
     assert!(found.is_ok(), "{:?}", found.err());

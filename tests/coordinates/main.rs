@@ -10,6 +10,7 @@ mod faults;
 mod frames;
 mod mass;
 mod patches;
+mod planes;
 mod soft;
 mod sound;
 mod table;

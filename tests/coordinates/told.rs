@@ -30,7 +30,7 @@ pub(crate) fn warnings(place: &Place) -> Vec<String> {
 }
 
 /// Verdict and place of the check of what the job expects.
-fn expected(place: &Place) -> Option<(String, String)> {
+pub(crate) fn expected(place: &Place) -> Option<(String, String)> {
     let report = place.report("x.report.json");
     let checks = report["body"]["checks"].as_array().expect("checks").clone();
     let check = checks.into_iter().find(|check| check["name"] == "mass and centre are those expected")?;

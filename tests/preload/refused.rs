@@ -167,6 +167,10 @@ fn forces_that_rounding_hides() {
         ExitCode::InputData,
         &["E-PRELOAD-NONE", "leave model.state out"],
     );
+    // No more can be said where K is that of a preloaded state, and the forces lie along directions without rows.
+    let network = tower(Nodes::Points, STRAIN);
+    let without = run(&network, &vec![0.0; network.model.n], (PRELOADED, ENDS));
+    assert!(without.err.contains("E-PRELOAD-NONE") && !without.err.contains("NaN"), "{}", without.err);
     let network = tower(Nodes::Points, 1e-15);
     assert_says(&run(&network, &network.forces, (PRELOADED, ENDS)), ExitCode::InputData, &["E-PRELOAD-NONE"]);
 }

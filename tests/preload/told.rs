@@ -269,3 +269,19 @@ fn translations_have_no_turns() {
         supel(&["verify", &path, "--job", &place.text("job.toml")]).expect(ExitCode::Done);
     }
 }
+
+/// Few digits hide what rotations cost, and no spring to the ground makes it.
+#[test]
+fn rotations_within_few_digits_are_not_grounded() {
+    let mut n_made = 0;
+    for strain in [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2] {
+        for digits in [4, 5, 6] {
+            let network = tower(Nodes::Points, strain);
+            let printed = Network { model: rounded(&network.model, digits), ..network };
+            let ended = reduced(&place_of(&printed, &printed.forces, (PRELOADED, ENDS), HERTING));
+            n_made += usize::from(ended.out.contains("M-05"));
+            assert!(!ended.out.contains("W-GROUNDED"), "{strain:e}, {digits} digits: {}", ended.out);
+        }
+    }
+    assert!(n_made >= 6, "{n_made}");
+}

@@ -24,7 +24,7 @@ pub(super) fn rigid_body(page: &mut Markup, body: &ReportBody) {
     } else if *known != MassProperties::default() {
         mass(page, &[MassRoute { route: "full model", properties: known.clone() }]);
     } else {
-        page.absent("Not known: mass properties need one free body with coordinates.");
+        page.absent("Not known: mass properties need one body with coordinates, free to move in all six directions but for supports of the job.");
     }
     page.heading("Frequencies of rigid-body motion");
     frequencies(page, body);

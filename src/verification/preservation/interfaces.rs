@@ -1,6 +1,7 @@
 //! The interfaces of the job with their dofs, and the masses that load them.
 
 use super::super::evidence::Evidence;
+use super::super::place::{centre as centre_of, square_levers};
 use crate::dense;
 use crate::model::Site;
 use crate::partition::Partition;
@@ -38,7 +39,7 @@ pub(super) fn interfaces(partition: &Partition) -> Vec<Interface> {
     all
 }
 
-/// Mass of the component and its mean moment of inertia about its centre, in scaled units.
+/// Mass of the component and its mean moment of inertia about its centre, of the axes that the model turns about, in scaled units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Inertia {
     pub(super) mass: f64,
@@ -63,10 +64,18 @@ impl Inertia {
         let u = Mat::from_fn(n, 6, |i, j| motions[i][j]);
         let m_f = dense::gram(u.as_ref(), product(&partition.mass, u.as_ref()).as_ref());
         let mass = (0..3).map(|axis| m_f[(axis, axis)]).fold(0.0, f64::max);
-        let offset = [m_f[(1, 5)], m_f[(2, 3)], m_f[(0, 4)]].map(|moment| moment / mass);
-        let shift: f64 = offset.iter().map(|value| value * value).sum();
-        let trace: f64 = (3..6).map(|axis| m_f[(axis, axis)]).sum();
-        Self { mass, moment: ((trace - 2.0 * mass * shift) / 3.0).max(0.0) }
+        let has = |direction: usize| places().any(|site| site.direction as usize == direction);
+        let axes: Vec<usize> = (0..3).filter(|axis| has(*axis)).collect();
+        let offset = centre_of(m_f.as_ref(), None);
+        // A model in a plane turns about the axis across it alone, or about those along it.
+        let turns_about =
+            |axis: &usize| has(3 + axis) || (0..3).all(|across| across == *axis || axes.contains(&across));
+        let moments: Vec<f64> = (0..3)
+            .filter(turns_about)
+            .map(|axis| m_f[(3 + axis, 3 + axis)] - mass * square_levers(&axes, offset, axis))
+            .collect();
+        let moment = if moments.is_empty() { 0.0 } else { moments.iter().sum::<f64>() / moments.len() as f64 };
+        Self { mass, moment: moment.max(0.0) }
     }
 
     /// The inertia of another mass of the same radius of gyration.
