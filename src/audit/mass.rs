@@ -74,7 +74,7 @@ pub(super) fn is_of_a_body(m_f: MatRef<'_, f64>) -> bool {
 
 /// M-16: what Û moves is a body. Roundings of few digits in M are in M̂, and nothing in a file tells how many there were.
 pub(super) fn of_a_body(content: &Content<'_>) -> Option<Check> {
-    mass_of_unit_motions(content).map(|m_f| verification::of_a_body(m_f.as_ref(), &[0, 1, 2], 0.0))
+    mass_of_unit_motions(content).map(|m_f| verification::of_a_body(m_f.as_ref(), &verification::ALL_AXES, 0.0))
 }
 
 /// M-16: the inertia of what Û moves is one that a body can have, where it moves one.

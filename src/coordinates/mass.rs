@@ -10,7 +10,7 @@ use faer::Mat;
 use super::motions::Motions;
 use super::nodes::Nodes;
 use crate::model::{Finding, Site};
-use crate::sparse::product_and_terms;
+use crate::sparse::{couples, product_and_terms};
 
 /// Difference of momenta, relative to their terms, above which it is none of rounding by a producer.
 const DIFFERENT: f64 = 1e-6;
@@ -49,21 +49,17 @@ pub(super) fn by_direction(motions: &Motions<'_>, nodes: &Nodes) -> Option<Findi
         pairs.iter().any(is_off)
     };
     // So is that which condensation leaves, which rows without a place show that are amplitudes of modes.
-    let couples_amplitudes = |row: &usize| {
-        let entries = motions.model.mass.outer_view(*row);
-        entries.iter().flat_map(|view| view.iter()).any(|(col, value)| *value != 0.0 && !nodes.is_placed(col))
-    };
+    let couples_amplitudes = |row: &usize| couples(&motions.model.mass, *row, |col| !nodes.is_placed(col));
+    let has_all = |rows: &[usize; 3]| axes.iter().all(|axis| rows[*axis] != usize::MAX);
     // Every node of a model in a plane lacks what moves across it, and none of its mass is missing for that.
     let is_near_lack = |node: usize, rows: &[usize; 3]| match axes.len() {
         3 => nodes.is_near_lack(node),
-        _ => around(motions, rows[axes[0]])
-            .any(|row| axes.iter().any(|axis| rows_of[nodes.of(row)][*axis] == usize::MAX)),
+        _ => couples(&motions.model.stiffness, rows[axes[0]], |row| !has_all(&rows_of[nodes.of(row)])),
     };
     // The consistent mass of a beam or shell is another along it than across, and its part at a removed node is missing.
     let is_whole = |node: usize, rows: &[usize; 3]| {
-        let has_all = || axes.iter().all(|axis| rows[*axis] != usize::MAX);
-        let of_axes = || axes.iter().map(|axis| &rows[*axis]);
-        !turns[node] && has_all() && !is_near_lack(node, rows) && !of_axes().any(couples_amplitudes)
+        let mut of_axes = axes.iter().map(|axis| &rows[*axis]);
+        !turns[node] && has_all(rows) && !is_near_lack(node, rows) && !of_axes.any(couples_amplitudes)
     };
     let whole = rows_of.iter().enumerate().filter(|(node, rows)| is_whole(*node, rows));
     let turned: Vec<usize> = whole.filter(|(_, rows)| is_turned(rows)).map(|(_, rows)| rows[axes[0]]).collect();
@@ -88,10 +84,4 @@ fn translations_of_nodes(motions: &Motions<'_>, nodes: &Nodes) -> (Vec<[usize; 3
         }
     }
     (rows_of, turns)
-}
-
-/// The rows that K couples with a row.
-fn around<'a>(motions: &'a Motions<'_>, row: usize) -> impl Iterator<Item = usize> + 'a {
-    let coupled = motions.model.stiffness.outer_view(row).map_or_else(Vec::new, |view| view.indices().to_vec());
-    coupled.into_iter().map(|row| row as usize)
 }

@@ -7,7 +7,7 @@ use faer::Mat;
 use super::{Bodies, Model, Site, node_of_row};
 use crate::dense;
 use crate::dofs::{Direction, Dof};
-use crate::sparse::{is_empty_row, product};
+use crate::sparse::{couples, is_empty_row, product};
 
 /// What M says of the six unit motions of all rows together, in scaled units.
 #[derive(Clone, Debug)]
@@ -78,8 +78,9 @@ impl Model {
         dense::symmetrise(&mut masses);
         let translations = std::array::from_fn(|axis| masses[(axis, axis)]);
         let along_themselves = first_moments(sites.as_deref(), &momenta);
-        let axes = (0..3).filter(|axis| dofs.iter().flatten().any(|dof| dof.direction as usize == *axis)).collect();
-        let has_whole_nodes = self.has_whole_nodes(dofs);
+        let directions = directions_of(dofs.iter().flatten());
+        let axes = (0..3).filter(|axis| directions[*axis]).collect();
+        let has_whole_nodes = is_of_space_or_a_plane(directions) && self.has_whole_nodes(dofs, directions);
         let parts = if sites.is_some() { self.weighed_parts(dofs, (&motions, &momenta)) } else { Vec::new() };
         let motions = sites.is_some().then_some(masses);
         let extent = sites.map_or(0.0, |sites| self.extent_of_mass(&sites));
@@ -95,23 +96,15 @@ impl Model {
         })
     }
 
-    fn has_whole_nodes(&self, dofs: &[Option<Dof>]) -> bool {
+    /// Whether each node has all translations of the model or none, and likewise its rotations where M couples them with translations.
+    fn has_whole_nodes(&self, dofs: &[Option<Dof>], of_model: [bool; 6]) -> bool {
         let translates = |row: usize| dofs[row].is_some_and(|dof| !dof.direction.is_rotation());
-        let is_coupled = |row: usize| {
-            let entries = self.mass.outer_view(row);
-            entries.iter().flat_map(|view| view.iter()).any(|(col, value)| *value != 0.0 && translates(col))
-        };
         // Directions, and whether mass moves with a rotation.
         let mut nodes: HashMap<i64, ([bool; 6], bool)> = HashMap::new();
-        let mut of_model = [false; 6];
         for (row, dof) in dofs.iter().enumerate().filter_map(|(row, dof)| dof.map(|dof| (row, dof))) {
             let (has, moves_mass) = nodes.entry(dof.node).or_default();
             has[dof.direction as usize] = true;
-            of_model[dof.direction as usize] = true;
-            *moves_mass |= dof.direction.is_rotation() && is_coupled(row);
-        }
-        if !is_of_space_or_a_plane(of_model) {
-            return false;
+            *moves_mass |= dof.direction.is_rotation() && couples(&self.mass, row, translates);
         }
         let are_all_or_none = |has: &[bool], of_model: &[bool]| has == of_model || !has.contains(&true);
         nodes.values().all(|(has, moves_mass)| {
@@ -162,6 +155,12 @@ fn first_moments(sites: Option<&[Option<Site>]>, momenta: &Mat<f64>) -> [f64; 3]
         }
     }
     moments
+}
+
+fn directions_of<'a>(dofs: impl Iterator<Item = &'a Dof>) -> [bool; 6] {
+    let mut directions = [false; 6];
+    dofs.for_each(|dof| directions[dof.direction as usize] = true);
+    directions
 }
 
 /// Whether a model has the directions of one in space, or of one that moves in a plane: those along it, and the rotation across it or none.

@@ -45,6 +45,7 @@ pub(crate) use mass::{
 };
 pub(crate) use penalty::LARGEST_OF_MESHES;
 pub use penalty::{Penalties, penalties};
+pub(crate) use place::ALL_AXES;
 pub use preservation::{Compared, fewest_modes, preservation, preservation_of_file};
 pub use rigid_body::MassRoutes;
 pub(crate) use rigid_body::mass_difference;

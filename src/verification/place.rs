@@ -13,7 +13,7 @@ use faer::MatRef;
 use crate::model::Weight;
 
 /// The axes of a model in space.
-pub(super) const ALL_AXES: [usize; 3] = [0, 1, 2];
+pub(crate) const ALL_AXES: [usize; 3] = [0, 1, 2];
 
 /// For each coordinate of the centre the two entries of M_F that tell it: translation, rotation and sign.
 const FIRST_MOMENTS: [[(usize, usize, f64); 2]; 3] =

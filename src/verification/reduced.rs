@@ -98,19 +98,20 @@ pub(super) fn pair_residual(evidence: &Evidence<'_>, of_digits: f64) -> Check {
     let forces = dense::product(reduction.stiffness.as_ref(), reduced.as_ref());
     let momenta = dense::product(reduction.mass.as_ref(), reduced.as_ref());
     let limits = PairLimits::of(evidence, of_digits);
+    let has_few_digits = data_noise(evidence.partition) > 0.0;
+    // A held interface takes up the reaction: its rows are not part of the eigenproblem.
+    let on_free_rows = |forces: Vec<f64>| -> Vec<f64> {
+        let of_row = |(i, f): (usize, f64)| if held.get(i) == Some(&true) { 0.0 } else { f };
+        forces.into_iter().enumerate().map(of_row).collect()
+    };
     let mut worst = (0.0, limits.of_mode(evidence, 0, 0.0), None);
     for (j, lambda) in modes.lambda.iter().enumerate() {
         let (force, momentum) = (dense::column(forces.as_ref(), j), dense::column(momenta.as_ref(), j));
         let mode = dense::column(reduced.as_ref(), j);
-        // A held interface takes up the reaction: its rows are not part of the eigenproblem.
-        let on_free_rows = |forces: Vec<f64>| -> Vec<f64> {
-            let of_row = |(i, f): (usize, f64)| if held.get(i) == Some(&true) { 0.0 } else { f };
-            forces.into_iter().enumerate().map(of_row).collect()
-        };
         let residual = on_free_rows(force.iter().zip(momentum).map(|(f, p)| f - lambda * p).collect());
         let error = norms.backward_error(*lambda, mode, &residual);
-        let cleared = on_free_rows(forces_of_cleared(evidence, mode));
-        let judged = limits.of_mode(evidence, j, norms.backward_error(*lambda, mode, &cleared));
+        let of_cleared = || norms.backward_error(*lambda, mode, &on_free_rows(forces_of_cleared(evidence, mode)));
+        let judged = limits.of_mode(evidence, j, if has_few_digits { of_cleared() } else { 0.0 });
         if dense::worse(judged.severity(error), worst.1.severity(worst.0)) {
             let at = norms.largest(&residual);
             worst = (error, judged, Some(format!("mode {}, {}", j + 1, coordinate_name(evidence, at))));
@@ -146,13 +147,11 @@ impl PairLimits {
         Self { arithmetic, data: zero.data.max(of_digits) }
     }
 
-    /// The limits of a mode, with the backward error that the block set to zero in K̂ would take away again: what few digits of K put into
-    /// that block is measured by M-13. A mode whose column was left out lacks of its length what the other columns have not, up to
+    /// The limits of a mode, with the backward error that few digits of K leave of it by the block set to zero in K̂, which M-13 measures. A mode whose column was left out lacks of its length what the other columns have not, up to
     /// [`INDEPENDENT`] of it, and the residual is that share of its terms, some times over for the other measure of length.
     fn of_mode(&self, evidence: &Evidence<'_>, mode: usize, of_cleared: f64) -> Judged {
         let is_left_out = evidence.basis.dropped.iter().any(|column| column.coordinate.mode() == Some(mode));
         let arithmetic = if is_left_out { self.arithmetic.max(NOISE_FACTOR * INDEPENDENT) } else { self.arithmetic };
-        let of_cleared = if data_noise(evidence.partition) > 0.0 { of_cleared } else { 0.0 };
         let limits = Limits { engineering: 1e-12, arithmetic, data: self.data + of_cleared };
         let limits = limits.capped(MAX_EXCUSE, MAX_EXCUSE);
         Judged { limits, fail_above: limits.value().max(1e-9) }

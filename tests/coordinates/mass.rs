@@ -10,8 +10,8 @@ use crate::faults::{block, shuffled};
 use crate::place::{Ended, Place, supel};
 use crate::table::{listed, said};
 
-/// The block with another mass.
-fn with_mass(model: &Model, mass: Vec<Entry>) -> Model {
+/// The model with another mass.
+pub(crate) fn with_mass(model: &Model, mass: Vec<Entry>) -> Model {
     let mut sorted = Assembler::default();
     sorted.extend(mass);
     Model { mass: sorted.finish(), ..model.clone() }
@@ -27,10 +27,11 @@ fn nodes_moved(model: &Model, node: impl Fn(u32) -> u32) -> Model {
     moved(model, |row| 3 * node(row / 3) + row % 3)
 }
 
-/// All rows along x first, then all along y, then all along z.
-fn direction_by_direction(model: &Model) -> Model {
-    let n_nodes = model.n as u32 / 3;
-    moved(model, |row| row % 3 * n_nodes + row / 3)
+/// All rows along x first, then all along y, then all along z, of nodes that have the same directions.
+pub(crate) fn direction_by_direction(model: &Model) -> Model {
+    let n_directions = model.dofs.iter().filter(|dof| dof.0 == model.dofs[0].0).count() as u32;
+    let n_nodes = model.n as u32 / n_directions;
+    moved(model, |row| row % n_directions * n_nodes + row / n_directions)
 }
 
 /// The block with its mass on the diagonal, as lumping by row sums makes it.
@@ -38,9 +39,10 @@ fn lumped() -> Model {
     lumped_of(&block())
 }
 
-fn lumped_of(model: &Model) -> Model {
-    let sums = model.mass.iter().filter(|(row, col, _)| row % 3 == col % 3).map(|(row, _, value)| (*row, *row, *value));
-    with_mass(model, sums.collect())
+pub(crate) fn lumped_of(model: &Model) -> Model {
+    let direction = |row: u32| model.dofs[row as usize].1;
+    let along_one = model.mass.iter().filter(|(row, col, _)| direction(*row) == direction(*col));
+    with_mass(model, along_one.map(|(row, _, value)| (*row, *row, *value)).collect())
 }
 
 /// Reduces a model at the ends of the block.

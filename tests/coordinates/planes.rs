@@ -1,15 +1,16 @@
 //! Models in a plane, and of other directions than all six: what is known of their mass.
 
 use supel::cli::ExitCode;
-use supel_models::model::{Assembler, Entry};
+use supel_models::model::Entry;
 use supel_models::transform::{supported, translated};
 use supel_models::{Inertia, Material, Model, Section, Wall, brick, frame, shell};
 
+use crate::mass::{direction_by_direction, lumped_of, with_mass};
 use crate::place::supel;
 use crate::table::said;
 use crate::told::{by_job, expected};
 
-/// A frame in the plane of x and y, thicker on one side.
+/// A frame in the plane of x and y, with one leg shorter.
 fn portal() -> Model {
     let nodes: Vec<[f64; 3]> = (0..4)
         .map(|k| [0.0, 0.25 * f64::from(k), 0.0])
@@ -37,32 +38,10 @@ impl Planar {
         let centre = [product(1, 5), product(2, 3), product(0, 4)].map(|moment| moment / mass);
         Self { what, model: supported(&whole, |(_, direction)| !directions.contains(&direction)), mass, centre }
     }
-
-    /// All rows along the first direction first, then along the others, in M alone.
-    fn with_mass_by_direction(self) -> Self {
-        let n_directions = self.model.dofs.iter().filter(|dof| dof.0 == self.model.dofs[0].0).count() as u32;
-        let n_nodes = self.model.n as u32 / n_directions;
-        let place = |row: u32| row % n_directions * n_nodes + row / n_directions;
-        let moved = self.model.mass.iter().map(|(i, j, value)| (place(*i), place(*j), *value));
-        Self { model: with_mass(&self.model, moved.collect()), ..self }
-    }
 }
 
 fn product_of(entries: &[Entry], [x, y]: [&[f64]; 2]) -> f64 {
     entries.iter().map(|(i, j, value)| x[*i as usize] * value * y[*j as usize]).sum()
-}
-
-fn with_mass(model: &Model, mass: Vec<Entry>) -> Model {
-    let mut sorted = Assembler::default();
-    sorted.extend(mass);
-    Model { mass: sorted.finish(), ..model.clone() }
-}
-
-/// The mass on the diagonal, row by row what its direction has there.
-fn lumped(model: &Model) -> Model {
-    let direction = |row: u32| model.dofs[row as usize].1;
-    let along_one = model.mass.iter().filter(|(row, col, _)| direction(*row) == direction(*col));
-    with_mass(model, along_one.map(|(row, _, value)| (*row, *row, *value)).collect())
 }
 
 /// A grid of flat elements, uneven along x, whose membrane needs no rotations.
@@ -146,7 +125,7 @@ fn the_centre_is_told_by_directions_that_lack_no_mass() {
 #[test]
 fn a_mass_in_a_plane_that_depends_on_the_direction() {
     for sound in planar_models().into_iter().take(3) {
-        let sound = Planar { model: lumped(&sound.model), ..sound };
+        let sound = Planar { model: lumped_of(&sound.model), ..sound };
         let what = sound.what;
         let said_of = |model: &Model| {
             let (place, ended) = by_job(model, "", "nodes = [1, 2, 8]");
@@ -158,7 +137,7 @@ fn a_mass_in_a_plane_that_depends_on_the_direction() {
         // Of the even nodes of this mesh and of the odd ones the mass is the same.
         for (fault, model, expected, of_the_whole) in [
             ("one direction of a node", with_mass(&sound.model, heavier), "W-MASS-DIRECTION, M-16", "fail"),
-            ("direction by direction", sound.with_mass_by_direction().model, "W-MASS-DIRECTION", "pass"),
+            ("direction by direction", direction_by_direction(&sound.model), "W-MASS-DIRECTION", "pass"),
         ] {
             let (said, place) = said_of(&model);
             assert_eq!(said, expected, "{what}, {fault}");
