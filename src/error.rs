@@ -974,10 +974,14 @@ pub enum Error {
         filter: String,
     },
     /// A dataset promises more than its bytes can hold.
-    #[entry("E-HDF5-SIZE", InputData, "the file is damaged or was never finished: write it again")]
+    #[entry(
+        "E-HDF5-SIZE",
+        InputData,
+        "the file is damaged or was never finished, or chunks were left out that would have fill values: write it again, all of it"
+    )]
     #[error(
-        "{}:{object}: promises {promised} – its stored bytes can hold at most {} – the file is damaged or \
-        the dataset was never written",
+        "{}:{object}: promises {promised} – its stored bytes can hold at most {} – the file is damaged, or \
+        not all of the dataset was written: write the values of every chunk, zeros as well",
         path.display(), counted(*available, "byte", "bytes")
     )]
     Hdf5Size {
@@ -2933,15 +2937,15 @@ pub enum Error {
     #[entry(
         "E-ROTATIONS-HELD",
         InputData,
-        "check map, order of nodes, local frames and the state of the coordinates; look for springs between distant \
-        nodes; where supports hold rotations alone, list them in `model.held_rotations`"
+        "check map, order of nodes, local frames, the state of the coordinates and the digits of K; look for springs between \
+        distant nodes; where supports hold rotations alone, list them in `model.held_rotations`"
     )]
     #[error(
         "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the \
         energy of the first elastic mode, most of it at {dof}, and {} none – expected free \
         rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order \
-        of nodes, local node frames and the state that the coordinates are of; where supports hold rotations alone, \
-        list these in model.held_rotations",
+        of nodes, local node frames and the state that the coordinates are of; where K has fewer digits than its numbers \
+        show, state `stiffness_digits`; where supports hold rotations alone, list these in model.held_rotations",
         quantity(*energy, 2), counted(*n_zero, "motion costs", "motions cost")
     )]
     RotationsHeld {

@@ -76,6 +76,33 @@ fn refusal(indptr: &[i64], indices: &[i64], data: &[f64]) -> Error {
     error
 }
 
+/// Julia counts from one, and messages show what its file has.
+#[test]
+fn indices_are_shown_as_they_are_counted() {
+    let refused = |colptr: &[i64], rowval: &[i64]| {
+        let (_folder, path) = file_with(|file| {
+            let group = file.create_group("K").unwrap();
+            put(&group, "m", &[2_i64]);
+            put(&group, "n", &[2_i64]);
+            put(&group, "colptr", colptr);
+            put(&group, "rowval", rowval);
+            put(&group, "nzval", &[2.0, 3.0]);
+        });
+        stiffness(&path, None).map(|input| dense(&input)).map_err(|error| error.to_string())
+    };
+    assert_eq!(refused(&[1, 2, 3], &[1, 2]), Ok(vec![vec![2.0, 0.0], vec![0.0, 3.0]]));
+    for (colptr, rowval, said) in [
+        ([0, 1, 2], [1, 2], "/K/colptr: pointer 0 is 0 – expected 1"),
+        ([1, 3, 2], [1, 2], "/K/colptr: pointer 2 is 2 – expected at least 3"),
+        ([1, 2, 4], [1, 2], "/K/colptr: pointer 2 is 4 – expected 3, one more than the number of values"),
+        ([1, 2, 3], [1, 9], "/K/rowval: entry 1 is 9 – expected 1 to 2"),
+        ([1, 2, 3], [0, 2], "/K/rowval: entry 0 is 0 – expected 1 to 2"),
+    ] {
+        let found = refused(&colptr, &rowval).expect_err("an error");
+        assert!(found.contains(said), "{found}");
+    }
+}
+
 /// Numbers that a reader would have to change are refused: unsigned ones beyond the signed, whole ones between two doubles.
 #[test]
 fn numbers_are_read_as_they_are_or_not_at_all() {

@@ -48,7 +48,7 @@ pub struct AssemblyMode {
     pub number: usize,
     /// What it is.
     pub kind: Kind,
-    /// Natural frequency of the assembled superelements: no lower than that of the full assembly, but for rounding.
+    /// Natural frequency of the assembled superelements: no lower than that of the full assembly, but for rounding, where no component is in doubt.
     pub frequency_hz: f64,
     /// How far rounding of the reduced matrices may have moved it.
     pub rounding_hz: f64,
@@ -130,7 +130,7 @@ impl Assembly {
             match &of.omitted {
                 Omitted::Nothing => {}
                 Omitted::Above { hz, mass } => all.push(OmittedOf { component, hz: *hz, mass }),
-                Omitted::Unknown { .. } => return None,
+                Omitted::Unknown { .. } | Omitted::InDoubt { .. } => return None,
             }
         }
         Some(all)

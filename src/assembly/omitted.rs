@@ -63,6 +63,22 @@ pub enum Omitted {
         /// Why not, and what to do.
         why: String,
     },
+    /// The file contradicts itself, or failed a check: its matrices need not be those of a reduction, which alone has no frequency below that of
+    /// the full model.
+    InDoubt {
+        /// What tells so, and what to do.
+        why: String,
+    },
+}
+
+impl Omitted {
+    fn unknown(why: &str) -> Self {
+        Self::Unknown { why: why.to_owned() }
+    }
+
+    fn in_doubt(why: &str) -> Self {
+        Self::InDoubt { why: why.to_owned() }
+    }
 }
 
 /// The mass that omitted motions have at most, on springs.
@@ -81,6 +97,9 @@ pub(super) fn omitted(
     m: MatRef<'_, f64>,
     u: MatRef<'_, f64>,
 ) -> Result<Omitted> {
+    if superelement.metadata().verification.verdict == Verdict::Fail {
+        return Ok(Omitted::in_doubt("a check had failed when it was made; reduce it again"));
+    }
     if is_whole(superelement) {
         return Ok(Omitted::Nothing);
     }
@@ -93,7 +112,7 @@ pub(super) fn omitted(
         Boundary::FreeInterface => of_free_modes(superelement, (k, m, u), kappa)?,
         Boundary::FixedInterface | Boundary::MixedInterface => of_held_modes(superelement, (k, m, u), kappa)?,
     };
-    Ok(mass.map_or_else(|why| Omitted::Unknown { why: why.to_owned() }, |mass| Omitted::Above { hz, mass }))
+    Ok(mass.map_or_else(|without| without, |mass| Omitted::Above { hz, mass }))
 }
 
 /// Whether the coordinates are as many as the dofs of the model, and none stands for several of them.
@@ -120,9 +139,6 @@ fn kept(superelement: &Superelement) -> Result<(Boundary, f64), String> {
     }
     if !metadata.validity.unloaded.is_empty() {
         return Err("it was reduced for loads on some of its interface dofs alone".to_owned());
-    }
-    if metadata.verification.verdict == Verdict::Fail {
-        return Err("a check had failed when it was made; reduce it again".to_owned());
     }
     if !metadata.verification.checks.iter().any(|check| check.id == COMPLETENESS) {
         return Err("its modes were not counted; reduce it with run.certify = \"count\" (reduce --certify)".to_owned());
@@ -162,14 +178,14 @@ fn of_free_modes(
     superelement: &Superelement,
     (k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>),
     kappa: f64,
-) -> Result<Result<SprungMass, &'static str>> {
+) -> Result<Result<SprungMass, Omitted>> {
     let spectrum = match stated_spectrum(superelement, (k, m), dense::orthonormal(u, m))? {
         Ok(spectrum) => spectrum,
-        Err(why) => return Ok(Err(why)),
+        Err(without) => return Ok(Err(without)),
     };
     let others = superelement.frequencies_kept().len()..spectrum.lambda.len();
     if others.clone().any(|j| spectrum.lambda[j] < (1.0 - SAME_EIGENVALUE) * kappa) {
-        return Ok(Err(OTHER_FREQUENCIES));
+        return Ok(Err(Omitted::in_doubt(OTHER_FREQUENCIES)));
     }
     // A direction at κ itself couples with nothing: its spring is rigid.
     let sprung: Vec<usize> = others.filter(|j| spectrum.lambda[*j] > kappa).collect();
@@ -184,19 +200,20 @@ fn of_held_modes(
     superelement: &Superelement,
     (k, m, u): (MatRef<'_, f64>, MatRef<'_, f64>, MatRef<'_, f64>),
     kappa: f64,
-) -> Result<Result<SprungMass, &'static str>> {
+) -> Result<Result<SprungMass, Omitted>> {
     let (r, n_b) = (superelement.n_coordinates(), superelement.n_interface());
     let named = &superelement.metadata().modes_held;
     let held: Vec<usize> = if named.is_empty() { (0..n_b).collect() } else { named.clone() };
     let scales: Vec<f64> = (0..n_b).map(|i| dense::power_of_two_root(k[(i, i)])).collect();
     if held.len() < n_b && n_passing(u.subrows(0, n_b), &scales, &held)? > 0 {
-        return Ok(Err("its modes were computed with some of its interface held, which lets it move as a rigid body"));
+        let why = "its modes were computed with some of its interface held, which lets it move as a rigid body";
+        return Ok(Err(Omitted::unknown(why)));
     }
     let moving: Vec<usize> = (0..r).filter(|at| !held.contains(at)).collect();
     let [k, inner_m] = [k, m].map(|a| dense::part(a, &moving));
     let spectrum = match stated_spectrum(superelement, (k.as_ref(), inner_m.as_ref()), Mat::zeros(moving.len(), 0))? {
         Ok(spectrum) => spectrum,
-        Err(why) => return Ok(Err(why)),
+        Err(without) => return Ok(Err(without)),
     };
     let n_modes = superelement.frequencies_kept().len();
     let mut modes = Mat::zeros(r, n_modes);
@@ -212,26 +229,30 @@ fn of_held_modes(
 }
 
 /// Why no shape of the reduced matrices counts as exact.
-const OTHER_FREQUENCIES: &str = "its matrices have the frequencies that it states to fewer digits than bounds need";
+const OTHER_FREQUENCIES: &str =
+    "its matrices do not have the frequencies that it states to the digits that bounds need";
 
 /// The elastic spectrum of reduced matrices, which begins with the frequencies that the file states; or why it is not to be used.
 fn stated_spectrum(
     superelement: &Superelement,
     (k, m): (MatRef<'_, f64>, MatRef<'_, f64>),
     rigid: Mat<f64>,
-) -> Result<Result<Spectrum, &'static str>> {
-    let Some(spectrum) = Pencil::of(k, m, rigid).spectrum(None)? else { return Ok(Err(OTHER_FREQUENCIES)) };
+) -> Result<Result<Spectrum, Omitted>> {
+    let Some(spectrum) = Pencil::of(k, m, rigid).spectrum(None)? else {
+        return Ok(Err(Omitted::in_doubt(OTHER_FREQUENCIES)));
+    };
     let stated: Vec<f64> = superelement.frequencies_kept().iter().map(|omega| omega * omega).collect();
     let is_found = |(j, stated): (usize, &f64)| {
         let found = spectrum.lambda.get(j);
         found.is_some_and(|found| (found - stated).abs() <= SAME_EIGENVALUE * stated + spectrum.rounding[j])
     };
     if !stated.iter().enumerate().all(is_found) {
-        return Ok(Err(OTHER_FREQUENCIES));
+        return Ok(Err(Omitted::in_doubt(OTHER_FREQUENCIES)));
     }
     // QᵀMx = QᵀKx/λ says nothing of a motion without energy.
     if stated.iter().zip(&spectrum.rounding).any(|(stated, rounding)| stated <= rounding) {
-        return Ok(Err("it keeps a mode of frequency zero, with which motions that it leaves out may couple"));
+        let why = "it keeps a mode of frequency zero, with which motions that it leaves out may couple";
+        return Ok(Err(Omitted::unknown(why)));
     }
     Ok(Ok(spectrum))
 }

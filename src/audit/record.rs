@@ -17,7 +17,11 @@ use crate::verification::preservation::AccuracyMeasure;
 /// M-26: the bytes of the file are those that its content makes: nothing is hidden in it, the digest holds.
 pub fn rewritten(superelement: &Superelement, bytes: &[u8]) -> Check {
     let is_same = superelement.to_bytes().is_ok_and(|sealed| sealed.bytes == bytes);
-    let flaws = if is_same { Vec::new() } else { vec!["its content written again gives other bytes".to_owned()] };
+    let flaws = if is_same {
+        Vec::new()
+    } else {
+        vec!["its content written again gives other bytes: another program wrote it, or it holds more".to_owned()]
+    };
     flaw("file is whole", "1 where its content written again is not the file, else 0", &flaws)
 }
 

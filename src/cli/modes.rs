@@ -1,9 +1,12 @@
 //! `supel modes`: the modes of superelements that are joined, held and loaded at their interfaces.
 
+use supel_runtime::Verdict;
+
 use super::answer::Terminal;
 use super::assembled::Files;
 use super::exit_code::ExitCode;
 use super::modes_command::{ModesAnswer, ModesCommand};
+use crate::assembly::Component;
 use crate::error::Result;
 use crate::report::ModesReport;
 
@@ -17,5 +20,6 @@ pub(super) fn run(command: &ModesCommand, terminal: &mut Terminal<'_>) -> Result
         ModesAnswer::Text => terminal.answer(&report.to_text(terminal.paint)),
         ModesAnswer::Json => terminal.answer(&report.to_json()?),
     }
-    Ok(ExitCode::Done)
+    let failed = |component: &Component| component.superelement.metadata().verification.verdict == Verdict::Fail;
+    Ok(if assembly.components.iter().any(failed) { ExitCode::CheckFailed } else { ExitCode::Done })
 }

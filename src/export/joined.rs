@@ -204,7 +204,7 @@ fn band(assembly: &Assembly) -> std::result::Result<Option<(f64, &str)>, (&str, 
             Omitted::Above { hz, .. } => {
                 lowest = lowest.filter(|(least, _)| least <= hz).or(Some((*hz, &component.name)));
             }
-            Omitted::Unknown { why } => return Err((&component.name, why)),
+            Omitted::Unknown { why } | Omitted::InDoubt { why } => return Err((&component.name, why)),
         }
     }
     Ok(lowest)

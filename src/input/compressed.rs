@@ -32,6 +32,8 @@ pub(super) struct Compressed {
     values: Vec<f64>,
     /// What messages call pointers, indices and values, by where they are in the file.
     names: [String; 3],
+    /// What pointers and indices count from in the file, as messages show them.
+    first: i64,
 }
 
 impl Compressed {
@@ -43,7 +45,13 @@ impl Compressed {
         values: Vec<f64>,
         names: [String; 3],
     ) -> Self {
-        Self { major, shape, pointers, indices, values, names }
+        Self { major, shape, pointers, indices, values, names, first: 0 }
+    }
+
+    /// Of pointers and indices that the file counts from `first`.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn counted_from(self, first: i64) -> Self {
+        Self { first, ..self }
     }
 
     /// Without what is reserved behind the last entry, which has no meaning: SciPy keeps it until a matrix is pruned.
@@ -128,9 +136,9 @@ impl Compressed {
             path: path.to_owned(),
             array: self.names[1].clone(),
             position,
-            found,
-            first: 0,
-            last: n as i64 - 1,
+            found: found.saturating_add(self.first),
+            first: self.first,
+            last: n as i64 - 1 + self.first,
         })?;
         let (rows, cols) = match self.major {
             Major::Rows => (majors, minors),
@@ -153,20 +161,21 @@ impl Compressed {
         let n_entries = self.values.len() as i64;
         let wrong = |position: usize, found: i64, expected: String| {
             let (path, array) = (path.to_owned(), self.names[0].clone());
-            Err(Error::MatrixPointer { path, array, position, found, expected })
+            Err(Error::MatrixPointer { path, array, position, found: found.saturating_add(self.first), expected })
         };
         let mut previous = 0;
         for (position, &pointer) in self.pointers.iter().enumerate() {
             if position == 0 && pointer != 0 {
-                return wrong(position, pointer, "0".to_owned());
+                return wrong(position, pointer, self.first.to_string());
             }
             if pointer < previous {
-                return wrong(position, pointer, format!("at least {previous}, the pointer before it"));
+                return wrong(position, pointer, format!("at least {}, the pointer before it", previous + self.first));
             }
             previous = pointer;
         }
         if previous != n_entries {
-            let expected = format!("{n_entries}, the number of values in {}", self.names[2]);
+            let more = if self.first == 0 { "" } else { "one more than " };
+            let expected = format!("{}, {more}the number of values in {}", n_entries + self.first, self.names[2]);
             return wrong(self.pointers.len() - 1, previous, expected);
         }
         Ok(())

@@ -13,7 +13,8 @@
 //!   by design: sums of short numbers, or multiples of a half, a quarter or an eighth, see [`super::exact`]. One or two such values among
 //!   short ones are what a soft spring makes of them.
 //! - d up to 6 is otherwise a source of that few digits only if the values look rounded *relative to their size*: many different
-//!   ones, over more than a decade, where those of the lower decades need d digits as often as those of the highest.
+//!   ones, over more than a decade, where those of the lower decades need d digits as often as those of the highest. Of five and six
+//!   digits fewer are enough where three in four need them all: short numbers seldom do.
 //! - Values in fixed point, such as `%.4f`, have one last decimal and digits by their size. D is the number of decimals that 99 of 100
 //!   different values do not exceed. Nine in ten of rounded values have D decimals, whatever their size, and nine in ten of those
 //!   with few digits have d digits, whatever theirs: more values with D decimals than with d digits, two thirds of all at least,
@@ -43,6 +44,9 @@ use crate::sparse::TripletBlocks;
 const DOUBLE_DIGITS: u32 = 17;
 /// Different values, in the lower decades, that data of few digits must have to be taken for rounded.
 const MIN_DISTINCT_SHORT: usize = 20;
+/// Fewer are enough of five digits and more, where three in four use them all.
+const MIN_DISTINCT_FULL: usize = 8;
+const LONGEST_SHORT: std::ops::RangeInclusive<u32> = 5..=6;
 /// Fewer are enough for modes. Eighths from −1 to 1, an exact grid, have seven different values below the highest decade. Tenths up to one
 /// have nine, and look the same as values that were rounded to one decimal.
 const MIN_DISTINCT_OF_MODES: usize = 8;
@@ -239,7 +243,7 @@ fn n_long(distinct: &BTreeSet<Decimal>) -> usize {
 
 /// Whether numbers of at most `digits` digits look rounded relative to their size: below the highest decade, too, most
 /// use all the digits. Of rounded numbers nine in ten do; numbers on a fixed grid have fewer the smaller they are. `least` is how many
-/// different numbers it takes.
+/// different numbers it takes, or fewer where their digits are as many as short numbers have at most.
 fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32, least: usize) -> bool {
     let top = distinct.last().map_or(0, |decimal| decimal.exponent);
     let lower: BTreeSet<(u64, u32)> = distinct
@@ -248,7 +252,8 @@ fn is_rounded(distinct: &BTreeSet<Decimal>, digits: u32, least: usize) -> bool {
         .map(|decimal| (decimal.mantissa, decimal.n_digits))
         .collect();
     let n_full = lower.iter().filter(|(_, n_digits)| *n_digits == digits).count();
-    lower.len() >= least && 2 * n_full > lower.len()
+    let are_full = LONGEST_SHORT.contains(&digits) && lower.len() >= MIN_DISTINCT_FULL && 4 * n_full >= 3 * lower.len();
+    are_full || lower.len() >= least && 2 * n_full > lower.len()
 }
 
 /// Decimals of values in fixed point that need `digits`; `relative` is what they are known to where they are not in fixed point.

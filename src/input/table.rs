@@ -15,6 +15,9 @@ const MAX_ROW_BYTES: u64 = 1 << 16;
 /// Bytes that the parser of rows asks for at once.
 const READ_AHEAD: usize = 1 << 13;
 
+/// What stands between fields, the first of them that a header has.
+const DELIMITERS: [u8; 3] = [b';', b'\t', b','];
+
 /// A table being read, its header taken.
 pub(super) struct Table {
     path: PathBuf,
@@ -37,7 +40,7 @@ pub(super) struct Row<'a> {
 
 /// The start of a text file: what stands before the first line of data, and that line.
 pub(super) struct FirstLine {
-    /// The first line that is neither blank nor a comment, without its end.
+    /// The first line that is neither blank nor a comment, without its end; it may be a header behind a `#`.
     pub(super) text: String,
     /// Its number, from 1.
     pub(super) line: u64,
@@ -63,17 +66,32 @@ pub(super) fn open_first_line(path: &Path, expected: &'static str) -> Result<Fir
             _ => {}
         }
         let text = bytes.trim_ascii();
-        if !text.is_empty() && !text.starts_with(b"%") {
+        let is_comment = match text.first() {
+            None | Some(b'%') => true,
+            Some(b'#') => !is_header(text, &mut rest).map_err(|error| read_error(path, error))?,
+            Some(_) => false,
+        };
+        if !is_comment {
             return Ok(FirstLine { text: String::from_utf8_lossy(text).into_owned(), line, rest });
         }
     }
+}
+
+/// Whether a line behind a `#` is the header: it has several names, and a row of data follows it.
+fn is_header(text: &[u8], rest: &mut impl BufRead) -> std::io::Result<bool> {
+    if !text.iter().any(|byte| DELIMITERS.contains(byte)) {
+        return Ok(false);
+    }
+    let next = rest.fill_buf()?.trim_ascii_start();
+    let next = next.strip_prefix(b"\"").unwrap_or(next);
+    Ok(next.first().is_none_or(|byte| byte.is_ascii_digit() || b"+-.".contains(byte)))
 }
 
 impl Table {
     /// A table whose header is the first line of data.
     pub(super) fn new(path: &Path, first: FirstLine) -> Self {
         let header_text = first.text.trim_start_matches('#');
-        let delimiter = [b';', b'\t', b','].into_iter().find(|&mark| header_text.contains(char::from(mark)));
+        let delimiter = DELIMITERS.into_iter().find(|&mark| header_text.contains(char::from(mark)));
         let delimiter = delimiter.unwrap_or(b',');
         let header = header_text.split(char::from(delimiter)).map(|name| name.trim().trim_matches('"').to_owned());
         let end = Rc::new(Cell::new(0));

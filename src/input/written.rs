@@ -43,7 +43,8 @@ pub(super) enum Written {
 
 /// What the first lines of entries show.
 pub(super) fn written(text: &[u8]) -> Option<Written> {
-    digits(text).map(Written::Digits).or_else(|| decimals(text).map(Written::Decimals)).or_else(|| fields(text))
+    let of_digits = digits(text).or_else(|| general(text)).map(Written::Digits);
+    of_digits.or_else(|| decimals(text).map(Written::Decimals)).or_else(|| fields(text))
 }
 
 /// The last word of each of the first lines.
@@ -173,6 +174,42 @@ fn rounded_to_last(distinct: &BTreeSet<&[u8]>) -> bool {
         && last.iter().any(|last| (last - b'0') % 2 == 1)
 }
 
+/// Digits of the general format, `%.6g`, in which streams of C++ write: numbers with more digits before the point than it keeps have an exponent.
+///
+/// `5.16923e+06` is longer than `5169230`, so that nobody wrote it who writes numbers as short as they can be. The format keeps no more digits
+/// than the least of these exponents, and cuts zeros at the end. Several different numbers have to use all of them, and be no sums of short ones.
+fn general(text: &[u8]) -> Option<u32> {
+    let (mut distinct, mut n_whole, mut least_power) = (BTreeSet::new(), 0, i32::MAX);
+    for number in numbers(text).filter(|number| number.iter().any(u8::is_ascii_digit)) {
+        let number = number.strip_prefix(b"-").unwrap_or(number);
+        let (mantissa, power) = match number.iter().position(|byte| *byte == b'e') {
+            Some(end) => (&number[..end], Some(std::str::from_utf8(&number[end + 1..]).ok()?)),
+            None => (number, None),
+        };
+        let point = mantissa.iter().position(|byte| *byte == b'.');
+        let is_cut = point.is_none() || !matches!(mantissa.last(), Some(b'0' | b'.'));
+        if !is_cut || !mantissa.iter().all(|byte| byte.is_ascii_digit() || *byte == b'.') {
+            return None;
+        }
+        match power {
+            Some(power) => {
+                let power: i32 = power.starts_with(['+', '-']).then(|| power.parse().ok())??;
+                let n_shortest = mantissa.len().saturating_sub(1).max(usize::try_from(power).unwrap_or(0) + 1);
+                if power >= 0 && number.len() > n_shortest {
+                    least_power = least_power.min(power);
+                }
+            }
+            None => n_whole = n_whole.max(point.unwrap_or(mantissa.len())),
+        }
+        distinct.extend(value(number).map(Decimal::of));
+    }
+    let n_digits = distinct.iter().map(|decimal| decimal.n_digits).max()?;
+    let n_full = distinct.iter().filter(|decimal| decimal.n_digits == n_digits).count();
+    let is_kept = least_power < i32::MAX && n_digits as i32 <= least_power && n_whole <= n_digits as usize;
+    let is_general = is_kept && (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && n_full >= MIN_DISTINCT;
+    (is_general && !are_sums(&distinct, n_digits)).then_some(n_digits)
+}
+
 /// A number that fills its field.
 struct Filling {
     size: f64,
@@ -270,6 +307,27 @@ mod tests {
         assert_eq!(digits(b"1 1 1.25e0\n2 2 3.75e0\n3 3 6.25e1\n"), None);
         assert_eq!(digits(b"1 1 1e0\n2 2 2e0\n3 3 5e-1\n2 1 -4e0\n"), None);
         assert_eq!(digits(b"1 1 0.0131\n2 2 0.0654\n3 3 0.0227\n"), None);
+    }
+
+    /// What streams of C++ write of a regular grillage, and what nobody rounded.
+    #[test]
+    fn the_general_format_shows_by_exponents_that_nobody_needs() {
+        let of = |numbers: &[&str]| -> Vec<u8> {
+            numbers.iter().enumerate().flat_map(|(k, text)| format!("{} 1 {text}\n", k + 1).into_bytes()).collect()
+        };
+        let streamed = ["-5.16923e+06", "-4.30769e+06", "-1.8144e+06", "1.26e+07", "-145152", "229152", "3.03692e+07"];
+        assert_eq!(written(&of(&streamed)), Some(Written::Digits(6)));
+        // Seven digits before the point, zeros that the format cuts, exponents without a sign, and numbers that are as short so.
+        for other in ["1234567", "2.50", "3.5e7"] {
+            assert_eq!(written(&of(&[&streamed[..], &[other]].concat())), None, "{other}");
+        }
+        assert_eq!(written(&of(&["5.16923e+16", "4.30769e+16", "3.03692e+17", "1.26e+17", "2.29152e+16"])), None);
+        // Two different numbers of all digits, and sums of short ones.
+        assert_eq!(written(&of(&["5.16923e+06", "1.26e+07", "4.30769e+06", "84000"])), None);
+        assert_eq!(
+            written(&of(&["1.00025e+06", "2.00025e+06", "3.00025e+06", "1e+06", "2e+06", "3e+06", "250"])),
+            None
+        );
     }
 
     /// Six digits on the diagonal and four off it; as many, as short as they can be.

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 use faer::Mat;
 
+use super::weight::directions_of;
 use crate::dense;
 use crate::dofs::{Direction, Dof};
 use crate::error::{Error, Result};
@@ -24,22 +25,25 @@ const ROUNDINGS_OF_A_MASS: f64 = 6.0;
 /// Adds the masses of a job to M, and says of each what was added, for the report.
 ///
 /// # Errors
-/// [`Error::AddedMass`] where a model has no dof map, a node has no dofs or no rotations that the mass needs, or an inertia is negative.
+/// [`Error::AddedMass`] where a model has no dof map, a node has no dofs or no rotations that the mass needs, or an inertia is negative. A model
+/// that moves in a plane needs no rotations out of it.
 pub fn add_masses(input: &mut Input, masses: &[AddedMassJob]) -> Result<Vec<String>> {
     if masses.is_empty() {
         return Ok(Vec::new());
     }
     let mut added = Triplets::default();
+    let has_no_such_motion = motions_out_of_plane(input);
     for job in masses {
         let rows = rows_of(input, job)?;
         let block = block(job)?;
         for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).filter(|at| block[*at] != 0.0) {
             let row = |axis: usize| rows.get(&Direction::ALL[axis]).copied();
-            if let Some(axis) = [i, j].into_iter().find(|axis| *axis >= 3 && row(*axis).is_none()) {
+            let is_missing = |axis: &usize| *axis >= 3 && row(*axis).is_none() && !has_no_such_motion[*axis];
+            if let Some(axis) = [i, j].into_iter().find(is_missing) {
                 let found = format!("no {}", Direction::ALL[axis]);
                 return Err(refused(job, found, "rotations at the node of a mass with inertia or an offset"));
             }
-            // A model in a plane has no motion out of it.
+            // Supports took a translation out, or the model moves in a plane.
             if let (Some(row), Some(column)) = (row(i), row(j)) {
                 added.push(row, column, block[(i, j)]);
             }
@@ -74,6 +78,14 @@ fn in_words(job: &AddedMassJob) -> Result<String> {
 /// The symmetric matrix of xx, yy, zz, xy, yz, zx.
 pub(crate) fn inertia_tensor([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> Mat<f64> {
     Mat::from_fn(3, 3, |i, j| [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]][i][j])
+}
+
+/// The directions that no node has, of a model that moves in a plane: along or about each axis, and never both. In other models nodes turn although
+/// they have no rotations.
+fn motions_out_of_plane(input: &Input) -> [bool; 6] {
+    let has = directions_of(input.dofs.iter().flatten().flatten());
+    let is_in_plane = has[3..].contains(&true) && (0..3).all(|axis| has[axis] != has[axis + 3]);
+    has.map(|has| is_in_plane && !has)
 }
 
 /// Rows of the dofs of the node.

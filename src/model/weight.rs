@@ -157,7 +157,8 @@ fn first_moments(sites: Option<&[Option<Site>]>, momenta: &Mat<f64>) -> [f64; 3]
     moments
 }
 
-fn directions_of<'a>(dofs: impl Iterator<Item = &'a Dof>) -> [bool; 6] {
+/// Which of the six directions any dof has.
+pub(super) fn directions_of<'a>(dofs: impl Iterator<Item = &'a Dof>) -> [bool; 6] {
     let mut directions = [false; 6];
     dofs.for_each(|dof| directions[dof.direction as usize] = true);
     directions

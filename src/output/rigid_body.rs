@@ -80,7 +80,8 @@ pub(super) fn grounded(results: &Results<'_>) -> Option<Warning> {
         code: "W-GROUNDED",
         message: format!(
             "the component is nearly free but not quite: {} has {:.1e} of the energy of the first elastic mode{at}; look \
-             for a weak spring to the ground, a support or a constraint left in the stiffness, or rounded coordinates",
+             for a weak spring to the ground, a support or a constraint left in the stiffness, rounded coordinates, or a \
+             stiffness of fewer digits than its numbers show: state `stiffness_digits` then",
             worst.direction, worst.energy_ratio
         ),
     })

@@ -84,7 +84,7 @@ impl<'a> Moved<'a> {
     /// Columns and values of a dof's row, not in order, where it is a row of A with its columns in other places, each to itself.
     fn permuted(&self, matrix: &SparseMatrix, dof: usize) -> Option<impl ExactSizeIterator<Item = (u32, f64)>> {
         let DofOrigin::Row(row) = self.transformation.dofs[dof].origin else { return None };
-        if self.by_patch_nodes.contains_key(&dof) {
+        if self.is_followed(dof) {
             return None;
         }
         let (columns, values) = matrix.outer_view(row).map_or((&[][..], &[][..]), |row| row.into_raw_storage());
@@ -95,6 +95,11 @@ impl<'a> Moved<'a> {
         let is_permuted = columns.iter().all(|col| place(*col).is_some());
         is_permuted
             .then(|| columns.iter().zip(values).map(move |(col, value)| (place(*col).unwrap_or_default(), *value)))
+    }
+
+    /// Whether rows of patches or constraints follow a dof.
+    fn is_followed(&self, dof: usize) -> bool {
+        self.by_patch_nodes.contains_key(&dof)
     }
 
     fn with(&self, dof: usize) -> impl Iterator<Item = (usize, f64)> {

@@ -189,15 +189,17 @@ impl ModesReport<'_> {
 
     /// What the figures mean.
     fn conclusion(&self) -> String {
+        let names_of = |is_meant: fn(&Omitted) -> bool| -> Vec<&str> {
+            let components = self.assembly.components.iter().filter(|component| is_meant(&component.omitted));
+            components.map(|component| component.name.as_str()).collect()
+        };
+        let in_doubt = names_of(|omitted| matches!(omitted, Omitted::InDoubt { .. }));
+        if !in_doubt.is_empty() {
+            return format!("Nothing bounds these frequencies: the matrices of {} are in doubt.", in_doubt.join(", "));
+        }
         let above = "Each frequency is an upper bound: no frequency of the full assembly is above the one of its number here, but for \
             rounding.";
-        let names: Vec<String> = self
-            .assembly
-            .components
-            .iter()
-            .filter(|component| matches!(component.omitted, Omitted::Unknown { .. }))
-            .map(|component| component.name.clone())
-            .collect();
+        let names = names_of(|omitted| matches!(omitted, Omitted::Unknown { .. }));
         if !names.is_empty() {
             let says = if names.len() == 1 { "does not say what it leaves" } else { "do not say what they leave" };
             return format!("{above} There are no lower bounds, as {} {says} out.", names.join(", "));
@@ -244,10 +246,10 @@ impl<'a> ComponentLine<'a> {
             n_rigid: component.superelement.n_rigid(),
             omits_above_hz: match component.omitted {
                 Omitted::Above { hz, .. } => Some(hz),
-                Omitted::Nothing | Omitted::Unknown { .. } => None,
+                Omitted::Nothing | Omitted::Unknown { .. } | Omitted::InDoubt { .. } => None,
             },
             omits_unknown: match &component.omitted {
-                Omitted::Unknown { why } => Some(why),
+                Omitted::Unknown { why } | Omitted::InDoubt { why } => Some(why),
                 Omitted::Nothing | Omitted::Above { .. } => None,
             },
         }
@@ -260,6 +262,7 @@ fn omits(omitted: &Omitted) -> String {
         Omitted::Nothing => "leaves nothing out".to_owned(),
         Omitted::Above { hz, .. } => format!("leaves out motions above {} Hz", number::quantity(*hz, 7)),
         Omitted::Unknown { why } => format!("leaves out motions, and where they begin is unknown: {why}"),
+        Omitted::InDoubt { why } => format!("in doubt: {why}"),
     }
 }
 

@@ -1,10 +1,11 @@
 //! The lower bounds, where they are nearly reached and where a file does not give any.
 
 use supel::assembly::{Assembly, Component, Kind, Omitted};
+use supel::cli::ExitCode;
 use supel_models::springs::springs;
 use supel_models::{Material, brick, spectrum};
 use supel_runtime::Coordinate;
-use supel_testing::place::Place;
+use supel_testing::place::{Place, supel};
 
 use crate::{all_modes, assert_enclosed, beams, line, n_rigid, reduced};
 
@@ -80,8 +81,32 @@ fn frequencies_that_the_matrices_do_not_have_give_no_bound() {
     tensors.stiffness = supel_runtime::Matrix::from_fn(n, n, |i, j| 1.001 * stiffness[(i, j)]);
     let altered = supel_runtime::Superelement::new(tensors, metadata).expect("one superelement");
     let component = Component::new("beam".to_owned(), altered).expect("a component");
-    let Omitted::Unknown { why } = component.omitted else { panic!("{:?}", component.omitted) };
-    assert!(why.contains("have the frequencies that it states to fewer digits"), "{why}");
+    let Omitted::InDoubt { why } = &component.omitted else { panic!("{:?}", component.omitted) };
+    assert!(why.contains("do not have the frequencies that it states"), "{why}");
+}
+
+/// Matrices that failed a check or are not those of the stated frequencies bound nothing from above.
+#[test]
+fn a_component_in_doubt_bounds_nothing() {
+    let place = Place::with(&beams(&line()));
+    place.reduce(&place.model_flags(), "--interface end=1 --method herting --modes 4");
+    let superelement = place.superelement("x.supel");
+    let (mut tensors, mut metadata) = (superelement.tensors().clone(), superelement.metadata().clone());
+    let n = tensors.stiffness.rows();
+    let stiffness = tensors.stiffness.clone();
+    tensors.stiffness = supel_runtime::Matrix::from_fn(n, n, |i, j| 0.25 * stiffness[(i, j)]);
+    let quarter = supel_runtime::Superelement::new(tensors, metadata.clone()).expect("one superelement");
+    metadata.verification.verdict = supel_runtime::Verdict::Fail;
+    let failed = supel_runtime::Superelement::new(superelement.tensors().clone(), metadata).expect("one superelement");
+    for (altered, code) in [(quarter, ExitCode::Done), (failed, ExitCode::CheckFailed), (superelement, ExitCode::Done)]
+    {
+        let is_sound = altered.metadata().verification.verdict != supel_runtime::Verdict::Fail
+            && altered.tensors().stiffness[(0, 0)] == stiffness[(0, 0)];
+        altered.write(&place.path("y.supel")).expect("written");
+        let ended = supel(&["modes", &place.text("y.supel"), "--fix", "end"]).expect(code);
+        assert_eq!(ended.out.contains("Each frequency is an upper bound"), is_sound, "{}", ended.out);
+        assert_eq!(ended.out.contains("the matrices of y are in doubt"), !is_sound, "{}", ended.out);
+    }
 }
 
 /// Two rigid patches next to each other, and a bar forty times as long beyond them: the mass that the reduction may leave out is rounding at

@@ -64,6 +64,23 @@ fn assert_said(model: &Model, expected: &str) {
     }
 }
 
+/// A direction that has no mass at any node, as where masses act across gravity alone, is told, and the mass of what something holds is not called
+/// that of no body for it.
+#[test]
+fn a_direction_without_mass_of_a_held_component() {
+    let held = block();
+    let across = |row: &u32| held.dofs[*row as usize].1 != 2;
+    let flat = with_mass(&held, held.mass.iter().filter(|(i, j, _)| across(i) && across(j)).copied().collect());
+    let place = Place::with(&flat);
+    let ends = ["XMIN", "XMAX"].map(|name| listed(&flat.groups[name]));
+    let flags = format!("--fix wall={} --rigid-interface tip={} --method craig-bampton --modes 5", ends[0], ends[1]);
+    let ended = place.reduce(&place.model_flags(), &flags).expect(ExitCode::Done);
+    assert_eq!(said(&place, &ended), "W-MASS-DIRECTION", "{}{}", ended.out, ended.err);
+    let report = place.report("x.report.json");
+    let is_judged = |check: &serde_json::Value| check["name"] == "mass is that of a body";
+    assert!(!report["body"]["checks"].as_array().expect("checks").iter().any(is_judged), "{}", ended.out);
+}
+
 #[test]
 fn nodes_of_a_consistent_mass_in_another_order() {
     let order = shuffled(block().n / 3);

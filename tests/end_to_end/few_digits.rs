@@ -11,7 +11,8 @@ use std::thread;
 use serde_json::Value;
 use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
-use supel_models::transform::{grounded, rounded};
+use supel_models::model::Entry;
+use supel_models::transform::{grounded, rounded, supported};
 use supel_models::{Family, Material, Model, Part, brick, write};
 use supel_testing::chain::certified::eigensolver_words;
 
@@ -298,4 +299,53 @@ fn digits_are_named_where_they_move_a_reduced_frequency() {
     assert_eq!(failed[0]["id"], "M-14");
     let worst = failed[0]["worst"].as_str().expect("a place");
     assert!(worst.starts_with("mode 1, as rigid-body motion costs energy by the digits of the stiffness"), "{worst}");
+}
+
+/// As streams of C++ write a number by default: six digits without zeros at their end, and an exponent where there are more before the point.
+fn streamed(value: f64) -> String {
+    let scientific = format!("{value:.5e}");
+    let (mantissa, exponent) = scientific.split_once('e').expect("an exponent");
+    let exponent: i32 = exponent.parse().expect("a number");
+    let cut = |text: &str| match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text.to_owned(),
+    };
+    match exponent {
+        -4..6 => cut(&format!("{value:.*}", (5 - exponent) as usize)),
+        _ => format!("{}e{}{:02}", cut(mantissa), if exponent < 0 { '-' } else { '+' }, exponent.abs()),
+    }
+}
+
+/// A regular grillage has few different numbers, and six digits of them ground its rotations: they are seen, and its rigid-body motions are free.
+#[test]
+fn a_grillage_as_streams_write_it() {
+    assert_eq!(
+        [5_169_230.769, -145_152.4, 0.000_012_34, 1.26e7, 3.5].map(streamed),
+        ["5.16923e+06", "-145152", "1.234e-05", "1.26e+07", "3.5"]
+    );
+    for [dx, dy] in [[0.3, 0.25], [0.37, 0.23]] {
+        let at = |k: usize| [dx * (k % 7) as f64, dy * (k / 7) as f64, 0.0];
+        let nodes: Vec<[f64; 3]> = (0..35).map(at).collect();
+        let along = (0..35).filter(|k| k % 7 < 6).map(|k| [k, k + 1]);
+        let edges: Vec<[usize; 2]> = along.chain((0..28).map(|k| [k, k + 7])).collect();
+        let space = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent);
+        let model = supported(&space, |(_, direction)| [0, 1, 5].contains(&direction));
+        let text = |entries: &[Entry]| {
+            let lines = entries.iter().filter(|(i, j, _)| i >= j);
+            let lines: Vec<String> =
+                lines.map(|(i, j, value)| format!("{} {} {}", i + 1, j + 1, streamed(*value))).collect();
+            let n = model.n;
+            format!("%%MatrixMarket matrix coordinate real symmetric\n{n} {n} {}\n{}\n", lines.len(), lines.join("\n"))
+        };
+        let (by_streams, as_short_as_can_be) = (Place::with(&model), Place::with(&rounded(&model, 6)));
+        by_streams.write("K.mtx", text(&model.stiffness).as_bytes());
+        for place in [by_streams, as_short_as_can_be] {
+            let flags = "--interface a=1 --interface b=35 --method herting --modes 6";
+            let ended = place.reduce(&place.model_flags(), flags);
+            assert_eq!(ended.code, ExitCode::Done, "{dx}: {}", ended.err);
+            let report = place.report("x.report.json");
+            assert_eq!(report["body"]["model"]["stiffness"]["digits"], 6, "{dx}");
+            assert_eq!(report["body"]["model"]["rigid_body_modes"]["count"], 3, "{dx}: {}", report["body"]["model"]);
+        }
+    }
 }

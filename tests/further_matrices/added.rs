@@ -1,6 +1,7 @@
 //! Masses at nodes, against matrices made by hand.
 
 use supel::cli::ExitCode;
+use supel_models::transform::supported;
 use supel_models::{Inertia, Material, Section, frame};
 use supel_testing::place::steel_brick;
 
@@ -79,6 +80,41 @@ fn masses_at_nodes_are_those_of_matrices_made_by_hand() {
     let job = String::from_utf8(case.place.bytes("job.toml")).expect("UTF-8");
     case.place.write("job.toml", job.replace("node = 4", "node = 5").as_bytes());
     case.verify_with_job().expect(ExitCode::CheckFailed);
+}
+
+/// Of a body on a model that moves in a plane only motion in it counts, and a model of translations alone still needs the rotations.
+#[test]
+fn a_mass_on_a_model_in_a_plane() {
+    let nodes: Vec<[f64; 3]> = (0..7).map(|k| [0.1 * f64::from(k), 0.02 * f64::from(k * k), 0.0]).collect();
+    let edges: Vec<[usize; 2]> = (0..6).map(|k| [k, k + 1]).collect();
+    let space = frame(&nodes, &edges, &Section::round(0.02), &Material::STEEL_SI, Inertia::Consistent);
+    for directions in [[0, 1, 5], [2, 3, 4]] {
+        let model = supported(&space, |(_, direction)| !directions.contains(&direction));
+        let mut by_hand = model.clone();
+        for (i, axis) in directions.into_iter().enumerate() {
+            for (j, other) in directions.into_iter().enumerate() {
+                let at = (9 + i as u32, 9 + j as u32);
+                let value = of_points()[usize::from(axis)][usize::from(other)];
+                match by_hand.mass.iter_mut().find(|(i, j, _)| (*i, *j) == at) {
+                    Some(entry) => entry.2 += value,
+                    None => by_hand.mass.push((at.0, at.1, value)),
+                }
+            }
+        }
+        by_hand.mass.sort_by_key(|(i, j, _)| (*i, *j));
+        let interfaces = "{ name = \"a\", nodes = [1] }, { name = \"b\", nodes = [7] }";
+        let hand = Case::new(by_hand).reduced(interfaces, HERTING, "");
+        let case = Case::new(model);
+        let file = case.reduced(interfaces, HERTING, &format!("added_mass = [{{ node = 4, {} }}]", added()));
+        for (omega, expected) in file.tensors().frequencies.iter().zip(&hand.tensors().frequencies) {
+            assert!((omega / expected - 1.0).abs() <= 1e-10, "{directions:?}: {omega} for {expected}");
+        }
+        case.verify_with_job().expect(ExitCode::Done);
+    }
+    let membrane = Case::new(supported(&space, |(_, direction)| direction > 1));
+    let on_it = format!("added_mass = [{{ node = 4, {} }}]", added());
+    let ended = membrane.run("{ name = \"a\", nodes = [1] }", HERTING, &on_it).expect(ExitCode::InputData);
+    assert!(ended.err.contains("E-ADDED-MASS") && ended.err.contains("no r"), "{}", ended.err);
 }
 
 /// `expect` counts added masses.

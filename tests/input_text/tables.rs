@@ -96,6 +96,10 @@ fn node_tables_in_any_dress() {
         "z;group;NODE;x;y\n3;skin;4;1.0;2e0\n",
         "\u{feff}\"node\"\t\"x\"\t\"y\"\t\"z\"\r\n4\t1\t2\t3\r\n",
         "# node, x, y, z\n4, 1, 2, 3\n",
+        // Comments above a header, behind a mark or not, with what may stand between fields in them or not.
+        "# exported by my tool, version 2\nnode,x,y,z\n4,1,2,3\n",
+        "# exported by my tool\n# units: m, kg\n\n# node,x,y,z\n 4,1,2,3\n",
+        "# mine\n\"node\",\"x\",\"y\",\"z\"\n\"4\",1,2,3\n",
         // As Fortran writes numbers, and as a table looks that was saved as one array.
         "node,x,y,z\n4,1.D0,0.2D+01,3.0\n",
         "node,x,y,z\n4.000000000000000000e+00,1.000000000000000000e+00,2.0e+00,3.0e+00\n",
@@ -106,6 +110,19 @@ fn node_tables_in_any_dress() {
         assert_eq!((nodes.labels, nodes.coordinates), (vec![4], vec![[1.0, 2.0, 3.0]]), "{text}");
     }
     assert!(read_tables(3, None, Some(&gzip(tables[0].as_bytes()))).is_ok());
+}
+
+#[test]
+fn a_comment_above_a_map_without_a_header() {
+    for comment in ["# rows of K by node", "# rows of K, by node\n# my map"] {
+        let text = format!("{comment}\n7.1\n7.3\n");
+        let input = read_tables(2, Some(text.as_bytes()), None).expect("a map");
+        assert_eq!(
+            input.dofs,
+            Some([Direction::Ux, Direction::Uz].map(|direction| dof(7, direction)).to_vec()),
+            "{text}"
+        );
+    }
 }
 
 #[test]

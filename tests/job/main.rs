@@ -90,7 +90,9 @@ fn message(document: &Value) -> String {
 }
 
 fn schema() -> jsonschema::Validator {
-    let schema: Value = serde_json::from_str(include_str!("../../schemas/job.schema.json")).expect("schema is JSON");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/job.schema.json");
+    let schema: Value =
+        serde_json::from_str(&std::fs::read_to_string(path).expect("a schema")).expect("schema is JSON");
     jsonschema::validator_for(&schema).expect("schema is a schema")
 }
 

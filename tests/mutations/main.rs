@@ -22,6 +22,9 @@ struct Mutation {
     #[serde(default)]
     member: String,
     test: [String; 2],
+    /// The test reads the file while it runs.
+    #[serde(default, rename = "is_text")]
+    _is_text: bool,
 }
 
 fn root() -> &'static Path {
@@ -56,7 +59,7 @@ fn the_table_fits_the_sources() {
     let table: Table = toml::from_str(include_str!("table.toml")).expect("a table");
     let mut names = std::collections::BTreeSet::new();
     for mutation in &table.mutation {
-        let Mutation { name, fact, file, before, after, member, test: [target, test] } = mutation;
+        let Mutation { name, fact, file, before, after, member, test: [target, test], .. } = mutation;
         assert!(names.insert(name), "{name} stands twice");
         assert!(!fact.is_empty() && before != after, "{name} changes nothing");
         let text = std::fs::read_to_string(root().join(file)).unwrap_or_else(|error| panic!("{file}: {error}"));

@@ -3,8 +3,9 @@
     tests/mutations/run.sh [--suite-passed] [NAME ...]
 
 The sources stay as they are: faults go into target/mutations. Most faults are branches of one build (switched.py), and a run of a test
-chooses one; what is no branch, as a fault in a constant, is put in and built alone. Every named test first has to pass there without a
-fault; where the whole suite has just passed on the same sources, `--suite-passed` leaves that out.
+chooses one; what is no branch, as a fault in a constant, is put in and built alone, and nothing is built for what a test reads while it
+runs. Every named test first has to pass there without a fault; where the whole suite has just passed on the same sources,
+`--suite-passed` leaves that out.
 Exit code: 0 where every fault was noticed, 1 where one was not.
 """
 
@@ -68,7 +69,7 @@ def write_switched(numbered):
     by_file, texts, fitting = {}, {}, set()
     for number, mutation in numbered.items():
         text = (ROOT / mutation["file"]).read_text()
-        if mutation["file"].endswith(".rs") and text.count(mutation["before"]) == 1 and (ROOT / crate_root(mutation)).is_file():
+        if text.count(mutation["before"]) == 1 and (ROOT / crate_root(mutation)).is_file():
             by_file.setdefault(mutation["file"], []).append((number, mutation))
     for name, faults in by_file.items():
         texts[name], numbers = switched.switched((ROOT / name).read_text(), faults)
@@ -98,13 +99,16 @@ def build(places):
 
 
 def build_switched(numbered):
-    """The programs of all faults that can be branches, with their numbers; those that the compiler refuses are left out and built again."""
-    left = dict(numbered)
+    """The programs of all faults that need no build of their own, and the numbers of those that are branches; those that the compiler
+    refuses are left out and the others built again."""
+    left = {number: mutation for number, mutation in numbered.items() if not mutation.get("is_text")}
+    places_of_texts = {place_of(mutation) for mutation in numbered.values() if mutation.get("is_text")}
     while True:
         fitting, texts = write_switched(left)
-        if not fitting:
+        places = places_of_texts | {place_of(left[number]) for number in fitting}
+        if not places:
             return {}, fitting
-        programs, errors = build({place_of(left[number]) for number in fitting})
+        programs, errors = build(places)
         if not errors:
             return programs, fitting
         refused = {
@@ -164,15 +168,15 @@ def judged(passed, text):
     return f"does not compile: {message}", False
 
 
-def alone(mutation):
-    """What comes of a fault that is built alone."""
+def alone(mutation, run):
+    """What comes of a fault that is put into the sources, where `run` gives whether its test passes and what it printed."""
     path = COPY / mutation["file"]
     sound = path.read_text()
     if sound.count(mutation["before"]) != 1:
         return "cannot be put in: the place is not there exactly once", False
     path.write_text(sound.replace(mutation["before"], mutation["after"]))
     try:
-        return judged(*run_cargo(place_of(mutation), [mutation["test"][1]]))
+        return judged(*run(place_of(mutation), [mutation["test"][1]]))
     finally:
         path.write_text(sound)
 
@@ -198,9 +202,15 @@ def main():
         sys.exit(f"no such fault: {', '.join(sorted(unknown))}")
 
     programs, fitting = build_switched(numbered)
+
+    def run_sound(place, tests):
+        return run_program(programs, place, tests, 0)
+
+    rest = [mutation for number, mutation in numbered.items() if number not in fitting]
+    texts = [mutation for mutation in rest if mutation.get("is_text")]
+    own_builds = [mutation for mutation in rest if not mutation.get("is_text")]
     if not flags:
-        branches = [numbered[number] for number in fitting]
-        refuse_failing(branches, lambda place, tests: run_program(programs, place, tests, 0))
+        refuse_failing([numbered[number] for number in fitting], run_sound)
     print("| fact | fault | test that has to notice | outcome | s |\n|---|---|---|---|---|", flush=True)
 
     def branch(number):
@@ -210,12 +220,12 @@ def main():
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         n_noticed = sum(pool.map(branch, sorted(fitting)))
-    rest = [mutation for number, mutation in numbered.items() if number not in fitting]
     if rest:
         copy_sources()
-    if rest and not flags:
-        refuse_failing(rest, run_cargo)
-    n_noticed += sum(told(mutation, lambda: alone(mutation)) for mutation in rest)
+    for group, run in [(texts, run_sound), (own_builds, run_cargo)]:
+        if not flags:
+            refuse_failing(group, run)
+        n_noticed += sum(told(mutation, lambda: alone(mutation, run)) for mutation in group)
     print(f"\n{n_noticed} of {len(numbered)} faults were noticed")
     sys.exit(0 if n_noticed == len(numbered) else 1)
 

@@ -62,6 +62,22 @@ pub(crate) fn tower(nodes: Nodes, strain: f64) -> Network {
     Network::of(at, nodes, springs)
 }
 
+/// Points anywhere in a cube, each pair tied by a spring, of which those along x have tension and the others hardly any: rotation about x costs
+/// much less than about y and z.
+pub(crate) fn cloud(n_points: usize, seed: u64, strain: f64) -> Network {
+    let mut random = SplitMix64::new(seed);
+    let at: Vec<Vector> = (0..n_points).map(|_| from_fn(|_| random.uniform())).collect();
+    let pairs = (0..n_points).flat_map(|i| (i + 1..n_points).map(move |j| [i, j]));
+    let spring = |nodes: [usize; 2]| {
+        let way = minus(at[nodes[1]], at[nodes[0]]);
+        let stiffness = STIFFNESS * (1.0 + random.uniform()) / length(way);
+        let tension = strain * stiffness * length(way) * (way[0] / length(way)).powi(8) * random.uniform();
+        Spring { nodes, arms: [[0.0; 3]; 2], stiffness, tension }
+    };
+    let springs = pairs.map(spring).collect();
+    Network::of(at, Nodes::Points, springs)
+}
+
 /// The tower without tension but for a tie between the first node and the last.
 pub(crate) fn tied_tower(nodes: Nodes, strain: f64) -> Network {
     let mut springs = tower(nodes, 0.0).springs;

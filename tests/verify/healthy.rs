@@ -540,4 +540,14 @@ fn a_thin_plate_on_hinges_with_few_digits() {
             }
         }
     }
+    // Where all that few digits do to rigid-body motion is less than what they put into the block.
+    for ([length, width], thickness, rest, digits) in [
+        ([1.0, 0.6], 0.003, "--fix hinge=1,6:ux,uy,uz --interface a=21,19 --method macneal --modes 5", 10),
+        ([1.5, 1.5], 0.002, "--fix hinge=13,18:ux,uy,uz --interface a=5,6 --method rubin --modes 8", 9),
+    ] {
+        let wall = Wall { material: Material::STEEL_SI, thickness, drilling: 1e-6 };
+        let plate = shell([5, 3], |[x, y]| [length * x, width * y, 0.0], &wall);
+        let place = Place::with(&rounded(&plate, digits));
+        place.reduce(&place.model_flags(), rest).expect(ExitCode::Done);
+    }
 }

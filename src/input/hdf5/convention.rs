@@ -132,7 +132,8 @@ fn read_named(group: &Group<'_>, named: NamedParts) -> Result<(Compressed, u32)>
     let reals = group.dataset(values)?.reals()?;
     let names = named.parts.map(|name| group.child_name(name));
     let major = if named.tells_columns { Major::Columns } else { Major::Rows };
-    Ok((Compressed::new(major, shape, pointers, indices, reals.values, names), reals.digits))
+    let compressed = Compressed::new(major, shape, pointers, indices, reals.values, names).counted_from(named.base);
+    Ok((compressed, reals.digits))
 }
 
 /// Whether rows or columns are compressed stands in a text that is not read (see [`attribute`]); stiffness and mass are symmetric, for
