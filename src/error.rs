@@ -2941,7 +2941,7 @@ pub enum Error {
         distant nodes; where supports hold rotations alone, list them in `model.held_rotations`"
     )]
     #[error(
-        "the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the \
+        "by these coordinates the stiffness lets the component move in every direction but not turn – {rotations} cost up to {} of the \
         energy of the first elastic mode, most of it at {dof}, and {} none – expected free \
         rotations, because no support holds a rotation and no translation of a solid – check the dof map, the order \
         of nodes, local node frames and the state that the coordinates are of; where K has fewer digits than its numbers \
@@ -3372,12 +3372,12 @@ pub enum Error {
     #[entry(
         "E-PATCH-RANK",
         InputData,
-        "add nodes off the line, or list fewer dofs; a carrier has six, which no model in a plane can follow"
+        "add nodes off the line, or list the dofs that the patch can follow; the carrier of `scene.prescribed` has six, so that no model in a plane can have one"
     )]
     #[error(
         "interface {interface:?}: its {} can follow only {rank} of {} of its node – expected three \
-        nodes that are not in line, with rows in all directions that it moves – add nodes to the patch or list fewer dofs; a carrier has \
-        six, which no model in a plane can follow",
+        nodes that are not in line, with rows in all directions that it moves – add nodes to the patch, or list the `dofs` that it \
+        can follow, in a plane ux, uy and rz; the carrier of scene.prescribed has six, so that no model in a plane can have one",
         counted(*n_rows, "row", "rows"), counted(*expected, "motion", "motions")
     )]
     PatchRank {

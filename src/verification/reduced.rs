@@ -147,8 +147,9 @@ impl PairLimits {
         Self { arithmetic, data: zero.data.max(of_digits) }
     }
 
-    /// The limits of a mode, with the backward error that few digits of K leave of it by the block set to zero in K̂, which M-13 measures. A mode whose column was left out lacks of its length what the other columns have not, up to
-    /// [`INDEPENDENT`] of it, and the residual is that share of its terms, some times over for the other measure of length.
+    /// The limits of a mode, with the backward error that few digits of K leave of it by the block set to zero in K̂, which M-13 measures. A mode
+    /// whose column was left out lacks of its length what the other columns have not, up to [`INDEPENDENT`] of it, and the residual is that share
+    /// of its terms, some times over for the other measure of length.
     fn of_mode(&self, evidence: &Evidence<'_>, mode: usize, of_cleared: f64) -> Judged {
         let is_left_out = evidence.basis.dropped.iter().any(|column| column.coordinate.mode() == Some(mode));
         let arithmetic = if is_left_out { self.arithmetic.max(NOISE_FACTOR * INDEPENDENT) } else { self.arithmetic };
