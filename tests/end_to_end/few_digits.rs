@@ -366,5 +366,5 @@ fn a_line_of_beams_as_streams_write_it() {
     );
     let nodes: Vec<[f64; 3]> = (0..7).map(|k| [0.3 * f64::from(k), 0.0, 0.0]).collect();
     let edges: Vec<[usize; 2]> = (1..7).map(|k| [k - 1, k]).collect();
-    assert_six_digits(&by_streams(&across(&nodes, &edges, &Section::round(0.05))), 7);
+    assert_six_digits(&by_streams(&across(&nodes, &edges, &Section::round(0.025))), 7);
 }
