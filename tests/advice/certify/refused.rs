@@ -59,7 +59,7 @@ fn frequencies_that_do_not_go_with_the_shapes_are_refused() {
     let words = said(["--hz", &place.text("words.txt")], ExitCode::InputData);
     assert!(words.contains("words.txt:2") && words.contains("`two`"), "{words}");
     place.write("empty.txt", b"# nothing\n");
-    assert!(said(["--hz", &place.text("empty.txt")], ExitCode::InputData).contains("E-VALUES-COUNT"));
+    assert!(said(["--hz", &place.text("empty.txt")], ExitCode::InputData).contains("E-NO-DATA"));
     let band = said(["--band", "10,5"], ExitCode::Usage);
     assert!(band.contains("E-FLAG") && band.contains("--band"), "{band}");
     let other = Place::with(&lowest_model());
