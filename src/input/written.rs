@@ -178,6 +178,7 @@ fn rounded_to_last(distinct: &BTreeSet<&[u8]>) -> bool {
 ///
 /// `5.16923e+06` is longer than `5169230`, so that nobody wrote it who writes numbers as short as they can be. The format keeps no more digits
 /// than the least of these exponents, and cuts zeros at the end. Several different numbers have to use all of them, and be no sums of short ones.
+/// Of fewer than five digits it has to be that exponent which says that there are no more: `1.25e+06` may have been written with six.
 fn general(text: &[u8]) -> Option<u32> {
     let (mut distinct, mut n_whole, mut least_power) = (BTreeSet::new(), 0, i32::MAX);
     for number in numbers(text).filter(|number| number.iter().any(u8::is_ascii_digit)) {
@@ -205,7 +206,8 @@ fn general(text: &[u8]) -> Option<u32> {
     }
     let n_digits = distinct.iter().map(|decimal| decimal.n_digits).max()?;
     let n_full = distinct.iter().filter(|decimal| decimal.n_digits == n_digits).count();
-    let is_kept = least_power < i32::MAX && n_digits as i32 <= least_power && n_whole <= n_digits as usize;
+    let is_known = n_digits >= MANY_DIGITS || n_digits as i32 == least_power;
+    let is_kept = is_known && least_power < i32::MAX && n_digits as i32 <= least_power && n_whole <= n_digits as usize;
     let is_general = is_kept && (MIN_FIXED_DIGITS..=MAX_DECIMAL_DIGITS).contains(&n_digits) && n_full >= MIN_DISTINCT;
     (is_general && !are_sums(&distinct, n_digits)).then_some(n_digits)
 }
@@ -322,6 +324,9 @@ mod tests {
             assert_eq!(written(&of(&[&streamed[..], &[other]].concat())), None, "{other}");
         }
         assert_eq!(written(&of(&["5.16923e+16", "4.30769e+16", "3.03692e+17", "1.26e+17", "2.29152e+16"])), None);
+        // Springs that are exact, by a format of more digits than they need; and three digits that it cut the others to.
+        assert_eq!(written(&of(&["1.25e+06", "3.75e+06", "2.25e+06", "-5e+06", "40000"])), None);
+        assert_eq!(written(&of(&["1.26e+03", "3.71e+06", "2.25e+04", "-5e+06", "400"])), Some(Written::Digits(3)));
         // Two different numbers of all digits, and sums of short ones.
         assert_eq!(written(&of(&["5.16923e+06", "1.26e+07", "4.30769e+06", "84000"])), None);
         assert_eq!(
