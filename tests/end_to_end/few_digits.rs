@@ -11,6 +11,7 @@ use std::thread;
 use serde_json::Value;
 use supel::cli::ExitCode;
 use supel_models::frame::{Inertia, Section, frame};
+use supel_models::springs::springs;
 use supel_models::transform::{grounded, rounded, supported};
 use supel_models::{Family, Material, Model, Part, brick, write};
 use supel_testing::chain::certified::eigensolver_words;
@@ -367,4 +368,14 @@ fn a_line_of_beams_as_streams_write_it() {
     let nodes: Vec<[f64; 3]> = (0..7).map(|k| [0.3 * f64::from(k), 0.0, 0.0]).collect();
     let edges: Vec<[usize; 2]> = (1..7).map(|k| [k - 1, k]).collect();
     assert_six_digits(&by_streams(&across(&nodes, &edges, &Section::round(0.025))), 7);
+}
+
+/// Springs of three digits need no more, and the format that wrote them may have kept six.
+#[test]
+fn exact_springs_as_streams_write_them() {
+    let chain = springs(&[1.0, 2.0, 1.0, 3.0], &[], &[(0, 1, 1.25e6), (1, 2, 3.75e6), (2, 3, 2.25e6)]);
+    let place = by_streams(&chain);
+    let ended = place.reduce(&place.matrix_flags(), "--interface ends=rows:0,3 --method craig-bampton --modes 2");
+    assert_eq!(ended.code, ExitCode::Done, "{}", ended.err);
+    assert_eq!(place.report("x.report.json")["body"]["model"]["stiffness"]["digits"], 17);
 }
