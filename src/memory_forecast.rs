@@ -26,11 +26,12 @@ const COPIES: u64 = 3;
 /// Dofs up to which the boundaries of a scene are solved at the same time: one search then has too little work for several threads, and its
 /// vectors take less than 100 MB.
 pub(crate) const TOGETHER_UP_TO: usize = 50_000;
-/// Blocks of all columns of the space in which the frequency response is found, in halves: the columns, what K and M make of them, both once
-/// more in a decomposition, and a copy while a column is added. Of the columns
-/// that there are, 9 to 12 were measured with 3,000 to 30,000 dofs and 12 to 294 interface dofs; of the columns foreseen 7 to 9 between two
-/// rigid patches of parts with 3,000 to 297,000 dofs.
-const HALF_BLOCKS_OF_RESPONSE: u64 = 17;
+/// Blocks of all columns of the space in which the frequency response is found: the columns, what K and M make of them, a copy while columns
+/// are added, and the panels of rows that the residuals are found from.
+const BLOCKS_OF_RESPONSE: u64 = 5;
+/// Square matrices of as many columns: K and M in that space, their spectral form, and while the next one is made their sum, its factor, what
+/// is decomposed, scaled, and its vectors twice.
+const SQUARES_OF_RESPONSE: u64 = 9;
 /// Blocks of n_B columns that such a space takes on, where the interface has few dofs.
 pub(crate) const RESPONSE_BLOCKS: f64 = 6.0;
 /// Columns for each root of n_B that it takes on where there are some: unlike forces share their answers.
@@ -38,12 +39,11 @@ const COLUMNS_OF_A_ROOT: f64 = 46.0;
 /// Blocks of n_B columns that it takes on where there are many. It depends on the band: measured are 560 and 677 columns of 150 and 162
 /// dofs, 790 of 294, 1,540 of 306, 1,750 of 426, and 2,930 of 600.
 const BLOCKS_OF_MANY: f64 = 4.2;
-/// Blocks of constraint modes that basis, projection and verification hold together where they are stored, and with the space of the
-/// response: 4.2 to 4.3 and 8 with 180 to 600 interface dofs.
+/// Blocks of constraint modes that basis, projection and verification hold together where they are stored: 4.2 to 4.3 with 180 to 600
+/// interface dofs.
 const BLOCKS_OF_STATICS: u64 = 5;
-const BLOCKS_OF_STATICS_WITH_RESPONSE: u64 = 8;
-/// The program itself, its threads and what it keeps of its files.
-const PROGRAM: u64 = 22 << 20;
+/// The program itself, its threads and what it keeps of its files: 28 to 30 MB beside a model of 252 dofs.
+const PROGRAM: u64 = 28 << 20;
 
 /// Loads on the interface that a comparison solves at most.
 const MAX_LOADS: usize = 48;
@@ -246,7 +246,7 @@ impl SearchSize {
             }
             Response::LeftOut => 0,
         };
-        of_supports.max(DOUBLE * n * HALF_BLOCKS_OF_RESPONSE * columns / 2)
+        of_supports.max(DOUBLE * columns * (BLOCKS_OF_RESPONSE * n + SQUARES_OF_RESPONSE * columns))
     }
 }
 
@@ -291,10 +291,9 @@ impl Memory {
             Statics::ByFactor | Statics::Condensed | Statics::Carried => n_b.min(PANEL),
         };
         // What a search holds is gone before the reduced model is compared.
-        let of_blocks = match (statics, search.compared.response) {
-            (Statics::Stored, Response::LeftOut) => (BLOCKS_OF_STATICS - 2) * n_b,
-            (Statics::Stored, Response::Compared) => (BLOCKS_OF_STATICS_WITH_RESPONSE - 2) * n_b,
-            (Statics::ByFactor | Statics::Condensed | Statics::Carried, _) => 0,
+        let of_blocks = match statics {
+            Statics::Stored => (BLOCKS_OF_STATICS - 2) * n_b,
+            Statics::ByFactor | Statics::Condensed | Statics::Carried => 0,
         };
         let of_blocks = BLOCKS_OF_MODES * (n_modes + n_answers(partition)) + of_blocks;
         let after = DOUBLE * n * of_blocks + search.of_comparison(partition, entries);

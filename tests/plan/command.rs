@@ -201,19 +201,20 @@ fn array_of_loads(n: usize, n_loads: usize) -> String {
 /// The peak of a process of its own is what the plan says, up to the pages that an allocator keeps and how soon the response converges.
 #[test]
 fn the_run_needs_the_memory_that_the_plan_says() {
-    let model = supel_models::brick([16, 9, 7], [1.0, 0.31, 0.23], &supel_models::Material::STEEL_SI);
+    let brick = |elements| supel_models::brick(elements, [1.0, 0.31, 0.23], &supel_models::Material::STEEL_SI);
+    let (model, larger) = (brick([16, 9, 7]), brick([24, 14, 10]));
     let many = "method = \"herting\", modes = { count = 60 }";
     let loads: String = (0..100)
         .map(|column| format!("[[load]]\nname = \"l{column}\"\nfile = \"loads.mtx\"\ncolumn = {column}\n"))
         .collect();
-    for (interfaces, reduction, scene, loads) in [
-        (PATCHES, HERTING, "", ""),
-        (PATCHES, many, "boundaries = []\nband_hz = [0, 9000]", ""),
-        (PATCHES, HERTING, "analysis = \"modal\"", &loads),
+    for (model, interfaces, reduction, scene, loads) in [
+        (&model, PATCHES, HERTING, "", ""),
+        (&model, PATCHES, many, "boundaries = []\nband_hz = [0, 9000]", ""),
+        (&model, PATCHES, HERTING, "analysis = \"modal\"", &loads),
         // Nothing holds this component, and K is singular. Two factors of K − σM are in memory at the same time.
-        ("", "method = \"craig-bampton\", modes = { count = 10 }", "", ""),
+        (&larger, "", "method = \"craig-bampton\", modes = { count = 10 }", "", ""),
     ] {
-        let place = Place::with(&model);
+        let place = Place::with(model);
         place.write("job.toml", format!("{}{loads}", Case::new(interfaces, reduction, scene).job()).as_bytes());
         place.write("loads.mtx", array_of_loads(model.n, 100).as_bytes());
         let answer = |command: &str| -> Value {

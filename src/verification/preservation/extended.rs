@@ -12,7 +12,9 @@
 //! iterations and never an error. Damping keeps the Galerkin system regular at any frequency.
 //!
 //! Cost: n_B to 2 n_B solves and 24 n' r_e n_B operations for each step, 2 n' (2 r_e + n_B)² for the residuals of all samples
-//! together; memory 5 n' r_e.
+//! together; memory 4 n' r_e, and the panels of rows that these are found from.
+
+use std::ops::Range;
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Scale, Side};
@@ -21,6 +23,7 @@ use rayon::prelude::*;
 use super::super::evidence::Evidence;
 use super::shift::shift;
 use super::space::{FullModel, RESIDUAL, Space, bound_of, coefficients, size_by};
+use super::triangle::triangle_of_panels;
 use crate::dense;
 use crate::eigen::{Equilibrated, Spectral, mass_qr};
 use crate::error::{Error, Result};
@@ -160,15 +163,18 @@ impl<'a> Extended<'a> {
     fn triangle(&self) -> Mat<f64> {
         let (n_i, n_b) = (self.evidence.partition.n_internal, self.evidence.partition.n_interface());
         let r = self.basis.ncols();
-        let columns = Mat::from_fn(self.basis.nrows(), n_b + 2 * r, |i, j| {
-            self.scale[i]
-                * match j {
-                    j if j < n_b => f64::from(u8::from(i == n_i + j)),
-                    j if j < n_b + r => self.forces[(i, j - n_b)],
-                    j => self.momenta[(i, j - n_b - r)],
-                }
-        });
-        columns.qr().thin_R().to_owned()
+        let panel = |rows: Range<usize>| {
+            Mat::from_fn(rows.len(), n_b + 2 * r, |i, j| {
+                let i = rows.start + i;
+                self.scale[i]
+                    * match j {
+                        j if j < n_b => f64::from(u8::from(i == n_i + j)),
+                        j if j < n_b + r => self.forces[(i, j - n_b)],
+                        j => self.momenta[(i, j - n_b - r)],
+                    }
+            })
+        };
+        triangle_of_panels((self.basis.nrows(), n_b + 2 * r), panel)
     }
 
     fn coefficients(&self, frequency_hz: f64) -> [Mat<f64>; 2] {

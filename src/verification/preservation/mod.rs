@@ -47,6 +47,7 @@ mod shift;
 mod sizes;
 mod space;
 mod statics;
+mod triangle;
 mod unmade;
 
 pub use accuracy::{Accuracy, AccuracyMeasure, LimitSource};
