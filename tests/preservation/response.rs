@@ -2,7 +2,7 @@
 
 use faer::c64;
 use supel::verification::preservation::Preservation;
-use supel_models::{Inertia, Material, Section, frame};
+use supel_models::{Inertia, Material, Model, Section, frame};
 
 use crate::chain::{Twin, direct, partition, rigid_group};
 use crate::oracle::{Dense, answers, decibel, reduced};
@@ -195,6 +195,32 @@ fn band_beyond_the_modes_converges_too() {
     let expected = decibel(&h, &reduced.response(&leading, 12000.0, 0.02));
     assert!((sample.error_db - expected).abs() <= 8.7 * rounding(&full) * (1.0 + expected), "{sample:?} {expected}");
     assert!(response.worst_db > 1.0, "one mode cannot serve ten");
+}
+
+/// A residual is that of all rows, which are looked at panel by panel: with the rows in reverse it is the same.
+#[test]
+fn the_order_of_the_rows_changes_no_residual() {
+    let model = supel_models::brick([28, 4, 4], [1.0, 0.31, 0.23], &Material::STEEL_SI);
+    let last = model.n as u32 - 1;
+    let reversed =
+        |entries: &[(u32, u32, f64)]| entries.iter().rev().map(|(i, j, value)| (last - i, last - j, *value)).collect();
+    let backwards = Model {
+        stiffness: reversed(&model.stiffness),
+        mass: reversed(&model.mass),
+        dofs: model.dofs.iter().rev().copied().collect(),
+        ..model.clone()
+    };
+    let [forwards, backwards] = [model, backwards].map(|model| {
+        let files = Files::new(model, vec![rigid_group("XMIN"), direct("tip", &[725])]);
+        let outcome = files.reduce("herting", "count = 6", &format!("{SCENE}\nband_hz = [0, 9000]"));
+        response(&outcome.report.body.preservation).residual
+    });
+    // Rounding of sums of n terms, of which the residual is this small a rest, and ten times that for terms larger than the load.
+    let rounding = 10.0 * f64::from(last) * f64::EPSILON / forwards;
+    assert!(
+        (backwards / forwards - 1.0).abs() <= rounding && rounding < 1e-3,
+        "{forwards:e} {backwards:e} {rounding:e}"
+    );
 }
 
 /// The error that is told is the largest of the whole band: weak pairs of dofs have antiresonances that no driving point has, and
