@@ -29,8 +29,8 @@ pub(crate) const TOGETHER_UP_TO: usize = 50_000;
 /// Blocks of all columns of the space in which the frequency response is found: the columns, what K and M make of them, a copy while columns
 /// are added, and the panels of rows that the residuals are found from.
 const BLOCKS_OF_RESPONSE: u64 = 5;
-/// Square matrices of as many columns: K and M in that space, their spectral form, and while the next one is made their sum, its factor, what
-/// is decomposed, scaled, and its vectors twice.
+/// Square matrices with a row and a column for each column of that space: K, M and their spectral form; and while the next form is made the
+/// shifted sum of K and M, its factor, the matrix that is decomposed, its scaled copy, and the vectors twice.
 const SQUARES_OF_RESPONSE: u64 = 9;
 /// Blocks of n_B columns that such a space takes on, where the interface has few dofs.
 pub(crate) const RESPONSE_BLOCKS: f64 = 6.0;
@@ -42,7 +42,7 @@ const BLOCKS_OF_MANY: f64 = 4.2;
 /// Blocks of constraint modes that basis, projection and verification hold together where they are stored: 4.2 to 4.3 with 180 to 600
 /// interface dofs.
 const BLOCKS_OF_STATICS: u64 = 5;
-/// The program itself, its threads and what it keeps of its files: 28 to 30 MB beside a model of 252 dofs.
+/// The program itself, its threads and what it holds of its files. It is nearly all that a run of a few hundred dofs takes.
 const PROGRAM: u64 = 28 << 20;
 
 /// Loads on the interface that a comparison solves at most.
@@ -286,16 +286,12 @@ impl Memory {
         // The loads and the inertia forces of the modes of a file, their static answers and their columns of the basis.
         let of_loads = 3 * n_answers(partition);
         let n_b = partition.n_interface() as u64;
-        let of_statics = match statics {
-            Statics::Stored => 2 * n_b,
-            Statics::ByFactor | Statics::Condensed | Statics::Carried => n_b.min(PANEL),
+        let (of_statics, of_their_blocks) = match statics {
+            Statics::Stored => (2 * n_b, (BLOCKS_OF_STATICS - 2) * n_b),
+            Statics::ByFactor | Statics::Condensed | Statics::Carried => (n_b.min(PANEL), 0),
         };
         // What a search holds is gone before the reduced model is compared.
-        let of_blocks = match statics {
-            Statics::Stored => (BLOCKS_OF_STATICS - 2) * n_b,
-            Statics::ByFactor | Statics::Condensed | Statics::Carried => 0,
-        };
-        let of_blocks = BLOCKS_OF_MODES * (n_modes + n_answers(partition)) + of_blocks;
+        let of_blocks = BLOCKS_OF_MODES * (n_modes + n_answers(partition)) + of_their_blocks;
         let after = DOUBLE * n * of_blocks + search.of_comparison(partition, entries);
         let vectors = of_loads + n_free + of_statics + refinement;
         let recovery = COPIES

@@ -48,7 +48,8 @@ pub struct AssemblyMode {
     pub number: usize,
     /// What it is.
     pub kind: Kind,
-    /// Natural frequency of the assembled superelements: no lower than that of the full assembly, but for rounding, where no component is in doubt.
+    /// Natural frequency of the assembled superelements: no lower than that of the full assembly, but for rounding, where no component is in
+    /// doubt.
     pub frequency_hz: f64,
     /// How far rounding of the reduced matrices may have moved it.
     pub rounding_hz: f64,

@@ -298,11 +298,6 @@ fn a_rotation_that_digits_hide_among_others_is_not_grounded() {
             let few = r#"method = "herting", modes = { count = 4 }"#;
             let ended = reduced(&place_of(&printed, &printed.forces, (PRELOADED, ends), few));
             n_made += usize::from(ended.out.contains("M-05"));
-            println!(
-                "{seed} {strain:e} {digits} {} {}",
-                ended.out.contains("W-GROUNDED"),
-                ended.err.lines().next().unwrap_or("")
-            );
             assert!(!ended.out.contains("W-GROUNDED"), "{seed}, {strain:e}, {digits} digits: {}", ended.out);
         }
     }

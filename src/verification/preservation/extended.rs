@@ -12,7 +12,7 @@
 //! iterations and never an error. Damping keeps the Galerkin system regular at any frequency.
 //!
 //! Cost: n_B to 2 n_B solves and 24 n' r_e n_B operations for each step, 2 n' (2 r_e + n_B)² for the residuals of all samples
-//! together; memory 4 n' r_e, and the panels of rows that these are found from.
+//! together, and up to a third more where their rows are divided into panels; memory 4 n' r_e, and a panel for each thread.
 
 use std::ops::Range;
 
