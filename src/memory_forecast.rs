@@ -20,6 +20,8 @@ const REFINEMENT: u64 = 72;
 /// Blocks of all modes that basis, projection, verification and comparison hold together: 5.9 with 800 fixed-interface modes of a
 /// slender solid of 30,000 dofs, 5.0 with Herting's.
 const BLOCKS_OF_MODES: u64 = 6;
+/// Bytes of an entry of a quantity: as it is read, in a row of the model and in one of the partition, with room to grow.
+const QUANTITY_ENTRY_BYTES: u64 = 40;
 /// Recovered rows of the basis as numbers, as bytes of their own and as bytes of the file.
 const COPIES: u64 = 3;
 
@@ -298,9 +300,10 @@ impl Memory {
             * (partition.recovered.rows.len() + partition.quantities.rows.len()) as u64
             * (partition.n_interface() as u64 + n_modes);
         let further: u64 = partition.matrices.iter().map(|carried| carried.matrix.nnz() as u64).sum();
+        let of_quantities: u64 = partition.quantities.rows.iter().map(|row| row.len() as u64).sum();
         Self {
             factors,
-            matrices: ENTRY_BYTES * (n_copies * entries + further),
+            matrices: ENTRY_BYTES * (n_copies * entries + further) + QUANTITY_ENTRY_BYTES * of_quantities,
             vectors: DOUBLE * (n * vectors + recovery) + after.max(DOUBLE * n * of_solver),
             program: PROGRAM,
         }

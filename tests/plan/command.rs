@@ -191,11 +191,11 @@ fn the_machine_is_measured_once() {
     assert!(rates(&["--threads", "1"])["solve_byte"].as_f64().expect("a number") > 0.0);
 }
 
-/// So many loads on so many rows, unlike one another.
-fn array_of_loads(n: usize, n_loads: usize) -> String {
+/// A matrix of so many rows and columns, unlike one another.
+fn array(n_rows: usize, n_columns: usize) -> String {
     let mut random = supel_models::SplitMix64::new(5);
-    let values: String = (0..n * n_loads).map(|_| format!("{:.6}\n", random.normal())).collect();
-    format!("%%MatrixMarket matrix array real general\n{n} {n_loads}\n{values}")
+    let values: String = (0..n_rows * n_columns).map(|_| format!("{:.6}\n", random.normal())).collect();
+    format!("%%MatrixMarket matrix array real general\n{n_rows} {n_columns}\n{values}")
 }
 
 /// The peak of a process of its own is what the plan says, up to the pages that an allocator keeps and how soon the response converges.
@@ -207,16 +207,24 @@ fn the_run_needs_the_memory_that_the_plan_says() {
     let loads: String = (0..100)
         .map(|column| format!("[[load]]\nname = \"l{column}\"\nfile = \"loads.mtx\"\ncolumn = {column}\n"))
         .collect();
-    for (model, interfaces, reduction, scene, loads) in [
-        (&model, PATCHES, HERTING, "", ""),
-        (&model, PATCHES, many, "boundaries = []\nband_hz = [0, 9000]", ""),
-        (&model, PATCHES, HERTING, "analysis = \"modal\"", &loads),
+    let quantities = ", quantities = { matrix = \"q.mtx\", names = \"q.csv\" }";
+    for (model, case, loads) in [
+        (&model, Case::new(PATCHES, HERTING, ""), ""),
+        (&model, Case::new(PATCHES, many, "boundaries = []\nband_hz = [0, 9000]"), ""),
+        (&model, Case::new(PATCHES, HERTING, "analysis = \"modal\""), &loads),
         // Nothing holds this component, and K is singular. Two factors of K − σM are in memory at the same time.
-        (&larger, "", "method = \"craig-bampton\", modes = { count = 10 }", "", ""),
+        (&larger, Case::new("", "method = \"craig-bampton\", modes = { count = 10 }", ""), ""),
+        (&model, Case { write: quantities, ..Case::new(PATCHES, HERTING, "") }, ""),
     ] {
         let place = Place::with(model);
-        place.write("job.toml", format!("{}{loads}", Case::new(interfaces, reduction, scene).job()).as_bytes());
-        place.write("loads.mtx", array_of_loads(model.n, 100).as_bytes());
+        let scene = [case.scene, case.write].concat();
+        place.write("job.toml", format!("{}{loads}", case.job()).as_bytes());
+        place.write("loads.mtx", array(model.n, 100).as_bytes());
+        if !case.write.is_empty() {
+            let names: String = (0..400).map(|k| format!("q{k}\n")).collect();
+            place.write("q.csv", format!("name\n{names}").as_bytes());
+            place.write("q.mtx", array(400, model.n).as_bytes());
+        }
         let answer = |command: &str| -> Value {
             let mut program = Command::cargo_bin("supel").expect("the program");
             let output = program.args([command, &place.text("job.toml"), "--json", "--threads", "2"]).output();
